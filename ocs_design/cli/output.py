@@ -80,7 +80,7 @@ class Output:
         if exit_code and self.quiet and not self.as_json:
             from ocs_design.report.verdict import headline
 
-            self.aside.print(headline(judged).whole, markup=False, soft_wrap=True)
+            self.aside.print(headline(judged).with_finding, markup=False, soft_wrap=True)
         raise typer.Exit(exit_code)
 
     def _console(self, *, stderr: bool) -> "Console":

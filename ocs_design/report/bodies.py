@@ -15,9 +15,9 @@ from ocs_design.export.meshes import Color
 from ocs_design.export.snapshot import picture
 
 _HEADER, _CHUNK = 12, 8
-"""Sizes of the heads of a GLB and of its chunks [bytes] (glTF 2.0, section 4)."""
+"""Sizes of the headers of a GLB and of its chunks [bytes] (glTF 2.0, section 4)."""
 
-_TYPES = {5123: "<u2", 5125: "<u4", 5126: "<f4"}
+_COMPONENT_TYPES = {5123: "<u2", 5125: "<u4", 5126: "<f4"}
 """NumPy types of the components of an accessor; our GLB files have no others."""
 
 
@@ -52,11 +52,11 @@ class ShownBody:
 
 def read_bodies(glb: bytes) -> tuple[ShownBody, ...]:
     """All bodies that have surfaces, in tree order."""
-    return tuple(body for body in _Reading(glb).bodies() if body.surfaces)
+    return tuple(body for body in _GlbReader(glb).bodies() if body.surfaces)
 
 
-def still(bodies: Sequence[ShownBody]) -> NDArray[np.uint8]:
-    """Picture of the bodies for print, for mail, and while the page loads; see `picture`."""
+def still_picture(bodies: Sequence[ShownBody]) -> NDArray[np.uint8]:
+    """Picture of the bodies, for print, for mail and while the page loads (`picture`)."""
     shapes = []
     for body in bodies:
         place = body.placement
@@ -66,8 +66,8 @@ def still(bodies: Sequence[ShownBody]) -> NDArray[np.uint8]:
     return picture(shapes)
 
 
-class _Reading:
-    """Reader of one file by `export.glb`: nodes with a mesh are geoms, the others bodies."""
+class _GlbReader:
+    """Reader of a file written by `export.glb`: nodes with a mesh are geoms, the others bodies."""
 
     def __init__(self, glb: bytes) -> None:
         length = int.from_bytes(glb[_HEADER : _HEADER + 4], "little")
@@ -83,39 +83,43 @@ class _Reading:
 
     def _below(self, index: int, parent: Placement) -> Iterator[ShownBody]:
         node = self._document["nodes"][index]
-        place = parent @ _placement(node)
+        placement = parent @ _placement(node)
         children = node.get("children", ())
         geoms = [child for child in children if "mesh" in self._document["nodes"][child]]
         # Surfaces, one for all geoms of one colour.
         by_color: dict[Color, list[tuple[FloatArray, NDArray[np.int64]]]] = {}
-        for geom in geoms:
-            shown = self._document["nodes"][geom]
-            at = _placement(shown)
-            for part in self._document["meshes"][shown["mesh"]]["primitives"]:
-                points = self._values(part["attributes"]["POSITION"]).reshape(-1, 3)
-                moved = points.astype(np.float64) @ at.rotation.T + at.position
-                faces = self._values(part["indices"]).reshape(-1, 3).astype(np.int64)
-                look = self._document["materials"][part["material"]]["pbrMetallicRoughness"]
-                red, green, blue, opacity = look["baseColorFactor"]
-                color = _screen(red), _screen(green), _screen(blue), opacity
-                by_color.setdefault(color, []).append((moved, faces))
+        for geom_index in geoms:
+            geom_node = self._document["nodes"][geom_index]
+            geom_placement = _placement(geom_node)
+            for primitive in self._document["meshes"][geom_node["mesh"]]["primitives"]:
+                points = self._values(primitive["attributes"]["POSITION"]).reshape(-1, 3)
+                in_body = (
+                    points.astype(np.float64) @ geom_placement.rotation.T + geom_placement.position
+                )
+                faces = self._values(primitive["indices"]).reshape(-1, 3).astype(np.int64)
+                material = self._document["materials"][primitive["material"]][
+                    "pbrMetallicRoughness"
+                ]
+                red, green, blue, opacity = material["baseColorFactor"]
+                color = _srgb(red), _srgb(green), _srgb(blue), opacity
+                by_color.setdefault(color, []).append((in_body, faces))
         surfaces = []
         for color, pieces in by_color.items():
             counts = np.cumsum([0, *(len(points) for points, _ in pieces)])
             shifted = [faces + first for (_, faces), first in zip(pieces, counts, strict=False)]
             vertices = np.concatenate([points for points, _ in pieces])
             surfaces.append(Surface(vertices, np.concatenate(shifted), color))
-        yield ShownBody(node["name"], place, tuple(surfaces))
+        yield ShownBody(node["name"], placement, tuple(surfaces))
         for child in children:
             if child not in geoms:
-                yield from self._below(child, place)
+                yield from self._below(child, placement)
 
     def _values(self, accessor: int) -> NDArray[Any]:
         entry = self._document["accessors"][accessor]
         view = self._document["bufferViews"][entry["bufferView"]]
-        first = view["byteOffset"]
-        content = self._buffer[first : first + view["byteLength"]]
-        return np.frombuffer(content, dtype=_TYPES[entry["componentType"]])
+        start = view["byteOffset"]
+        content = self._buffer[start : start + view["byteLength"]]
+        return np.frombuffer(content, dtype=_COMPONENT_TYPES[entry["componentType"]])
 
 
 def _placement(node: Mapping[str, Any]) -> Placement:
@@ -124,7 +128,7 @@ def _placement(node: Mapping[str, Any]) -> Placement:
     return Placement(rotation, np.array(node.get("translation", (0.0, 0.0, 0.0))))
 
 
-def _screen(part: float) -> float:
-    """Code of an intensity in sRGB (IEC 61966-2-1), the inverse of the conversion in the writer."""
-    code = 12.92 * part if part <= 0.0031308 else 1.055 * part ** (1.0 / 2.4) - 0.055
+def _srgb(intensity: float) -> float:
+    """Colour code of a linear intensity in sRGB (IEC 61966-2-1), the inverse of the writer's."""
+    code = 12.92 * intensity if intensity <= 0.0031308 else 1.055 * intensity ** (1.0 / 2.4) - 0.055
     return float(round(code, 4))

@@ -23,13 +23,13 @@ from ocs_design.report.table import CellTable, Rows, columns
 from ocs_design.requirement.uncertainty import Entry, spreads, uncertainty_of_texts
 from ocs_design.requirement.vocabulary import CRITERIA, LIGHTEST
 
-_NO_PRODUCT = 5e-5
+_NEGLIGIBLE_PRODUCT = 5e-5
 """Share of the largest moment below which a product of inertia is shown as 0 (its last digit)."""
 
-_NO_MASS = 1e-9
+_NEGLIGIBLE_MASS = 1e-9
 """Mass below which a part of a module is not listed [kg]."""
 
-_COUNTS = ("no", "one", "two", "three", "four", "five", "six")
+_NUMBER_WORDS = ("no", "one", "two", "three", "four", "five", "six")
 
 FIRST_FACTS = {
     "mass of a module": "module",
@@ -47,8 +47,8 @@ FIRST_FACTS = {
 
 def first_facts(design: OcsDesign) -> Rows:
     """Key facts of a device, by short names."""
-    found = dict(device_facts(design))
-    return tuple((short, found[name]) for name, short in FIRST_FACTS.items() if name in found)
+    facts = dict(device_facts(design))
+    return tuple((short, facts[name]) for name, short in FIRST_FACTS.items() if name in facts)
 
 
 def robot_facts(robot: RobotRecord) -> Rows:
@@ -62,8 +62,10 @@ def robot_facts(robot: RobotRecord) -> Rows:
     com = ", ".join(map(tenths, robot.com))
     moments = [robot.inertia[i][i] for i in range(3)]
     products = [robot.inertia[i][j] for i, j in ((0, 1), (0, 2), (1, 2))]
-    least = _NO_PRODUCT * max(moments)
-    crossed = "  ".join(f"{value:.2g}" if abs(value) > least else "0" for value in products)
+    negligible = _NEGLIGIBLE_PRODUCT * max(moments)
+    products_text = "  ".join(
+        f"{value:.2g}" if abs(value) > negligible else "0" for value in products
+    )
     return (
         ("mass", f"{robot.mass:.4g} kg"),
         ("trunk", trunk),
@@ -73,22 +75,22 @@ def robot_facts(robot: RobotRecord) -> Rows:
             "locked inertia",
             f"{'  '.join(f'{value:.4g}' for value in moments)} kg m2 (xx yy zz about the CoM)",
         ),
-        ("products", f"{crossed} kg m2 (xy xz yz)"),
+        ("products", f"{products_text} kg m2 (xy xz yz)"),
     )
 
 
-def drawn_facts(reality: Mapping[str, str]) -> Rows:
+def distribution_facts(reality: Mapping[str, str]) -> Rows:
     """Distributions that samples are drawn from, in practical units."""
-    known = {name: text for name, text in reality.items() if name in spreads()}
-    drawn = uncertainty_of_texts(known, "reality")
+    texts = {name: text for name, text in reality.items() if name in spreads()}
+    uncertainty = uncertainty_of_texts(texts, "reality")
     # The drive that fails is sampled too, but has no key in the specification.
     others = tuple(
-        (name.replace("_", " "), text) for name, text in reality.items() if name not in known
+        (name.replace("_", " "), text) for name, text in reality.items() if name not in texts
     )
     return others + tuple(
-        (name.replace("_", " "), Entry(getattr(drawn, name)).words(spread))
+        (name.replace("_", " "), Entry(getattr(uncertainty, name)).words(spread))
         for name, spread in spreads().items()
-        if name in known
+        if name in texts
     )
 
 
@@ -101,7 +103,7 @@ def heading_drift(drift: tuple[float, float]) -> str:
 def device_title(design: OcsDesign) -> str:
     """Title with the number of wheels, and a note if no motors were chosen."""
     modules = len(design.ocs.modules)
-    wheels = f"{_COUNTS[modules]} flywheel{'' if modules == 1 else 's'}"
+    wheels = f"{_NUMBER_WORDS[modules]} flywheel{'' if modules == 1 else 's'}"
     return f"Device: {wheels}{'' if has_motor(design) else ', no motors yet'}"
 
 
@@ -127,30 +129,32 @@ def device_facts(design: OcsDesign) -> Rows:
         if motor.torque_limit is not None:
             limits.append(f"{motor.torque_limit:.3g} N m")
         rows.append(("drive at the wheel", f"at most {listed(limits)}"))
-    at = (f"{each.name} ({', '.join(map(tenths, each.position))})" for each in ocs.modules)
-    rows.append(("wheels at", f"{', '.join(at)} mm"))
-    rows.append(("nearest, standing", _nearest(ocs.clearance)))
+    positions = (
+        f"{module.name} ({', '.join(map(tenths, module.position))})" for module in ocs.modules
+    )
+    rows.append(("wheels at", f"{', '.join(positions)} mm"))
+    rows.append(("nearest, standing", _clearance_text(ocs.clearance)))
     if ocs.mounting is not None:
         if ocs.mounting.landing is not None:
-            rows.append(("nearest, landing", _nearest(ocs.mounting.landing)))
+            rows.append(("nearest, landing", _clearance_text(ocs.mounting.landing)))
         shift = ", ".join(map(tenths, ocs.mounting.com_shift))
         changes = zip(("roll", "pitch", "yaw"), ocs.mounting.inertia_change, strict=True)
         inertias = ", ".join(f"{name} {change:+.1%}" for name, change in changes)
-        shifted = f"the centre of mass by {shift} mm; the inertia: {inertias}"
-        rows.append(("the device shifts", shifted))
+        shifts = f"the centre of mass by {shift} mm; the inertia: {inertias}"
+        rows.append(("the device shifts", shifts))
     rows.append(("heading drift", f"{heading_drift(ocs.heading_drift)} (cannot be commanded)"))
     return tuple(rows)
 
 
 def _wheel_facts(ocs: OcsRecord) -> Iterator[tuple[str, str]]:
     wheel, chosen = ocs.flywheel, ocs.incidence_criterion
-    alone = ocs.incidence_by_criterion_robot_alone.get(chosen)
-    if alone is not None:
-        chosen += f"; {degrees(alone)} for the robot alone"
+    robot_alone = ocs.incidence_by_criterion_robot_alone.get(chosen)
+    if robot_alone is not None:
+        chosen += f"; {degrees(robot_alone)} for the robot alone"
     if ocs.axes == PAIR:
         # alpha* is the optimum of a criterion; the lightest and a specified angle are not.
-        named = ocs.incidence_criterion in CRITERIA and ocs.incidence_criterion != LIGHTEST
-        name = "incidence alpha*" if named else "incidence alpha"
+        is_optimum = ocs.incidence_criterion in CRITERIA and ocs.incidence_criterion != LIGHTEST
+        name = "incidence alpha*" if is_optimum else "incidence alpha"
         yield name, f"{degrees(ocs.incidence, 2)} ({chosen})"
     else:
         yield "layout", layout_text(ocs)
@@ -164,8 +168,8 @@ def _wheel_facts(ocs: OcsRecord) -> Iterator[tuple[str, str]]:
         web, hub = wheel.web, wheel.web.hub
         sizes = f"{tenths(web.thickness)} mm, hub R {tenths(hub.radius)}  h {tenths(hub.height)} mm"
         if web.holes is not None:
-            across = tenths(2.0 * web.holes.hole_radius)
-            sizes += f", {web.holes.count} holes of {across} mm"
+            hole_diameter = tenths(2.0 * web.holes.hole_radius)
+            sizes += f", {web.holes.count} holes of {hole_diameter} mm"
         yield "web", f"{sizes}, {web.material}"
     rotor = ocs.motor.rotor_inertia
     share = f", of which its rotor {inertia(rotor)}" if rotor else ""
@@ -187,35 +191,37 @@ def _mass_facts(design: OcsDesign) -> Iterator[tuple[str, str]]:
         - ocs.motor.controller_mass,
     }
     factor, unit = (1e3, "g") if max(parts.values()) < 1.0 else (1.0, "kg")
-    shown = (
+    masses = (
         f"{name} {factor * mass:.{1 if unit == 'g' else 2}f}"
         for name, mass in parts.items()
-        if mass > _NO_MASS
+        if mass > _NEGLIGIBLE_MASS
     )
-    yield "mass of a module", f"{', '.join(shown)} {unit}"
+    yield "mass of a module", f"{', '.join(masses)} {unit}"
     plate = ocs.plate
     if plate is not None:
-        text = " x ".join(tenths(length) for length in plate.sizes)
+        sizes = " x ".join(tenths(length) for length in plate.sizes)
         count = len(plate.rows)
         name, its = ("carrier plate", "its") if count == 1 else (f"{count} carrier plates", "their")
         on = "" if plate.mast is None else " on a mast behind the trunk"
         on += "" if plate.relief is None else ", its block shaped to it"
-        yield name, f"{grams(plate.mass)} with {its} screws, {text} mm{on}"
+        yield name, f"{grams(plate.mass)} with {its} screws, {sizes} mm{on}"
     if ocs.pedestals:
-        mass = grams(sum(each.mass for each in ocs.pedestals))
-        largest = " x ".join(tenths(length) for length in max(each.sizes for each in ocs.pedestals))
+        mass = grams(sum(pedestal.mass for pedestal in ocs.pedestals))
+        largest = " x ".join(
+            tenths(length) for length in max(pedestal.sizes for pedestal in ocs.pedestals)
+        )
         count = len(ocs.pedestals)
         name = "pedestal" if count == 1 else f"{count} pedestals"
         yield name, f"{mass} with their screws, at most {largest} mm"
     yield "total mass", f"{grams(ocs.mass_total)} ({share_of_robot(design)})"
     controllers = len(ocs.modules) * ocs.motor.controller_mass
-    if controllers > _NO_MASS:
-        count, each = len(ocs.modules), grams(ocs.motor.controller_mass)
+    if controllers > _NEGLIGIBLE_MASS:
+        count, controller = len(ocs.modules), grams(ocs.motor.controller_mass)
         rest = grams(ocs.mass_total - controllers)
-        yield "without controllers", f"{rest} (controllers {count} x {each})"
+        yield "without controllers", f"{rest} (controllers {count} x {controller})"
 
 
-def _nearest(clearance: Clearance | None) -> str:
+def _clearance_text(clearance: Clearance | None) -> str:
     if clearance is None:
         return "not checked: the robot has no geometry"
     gap = millimetres(abs(clearance.distance))

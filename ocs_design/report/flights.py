@@ -23,17 +23,17 @@ from ocs_design.robot.stance import LANDING_TOLERANCE
 from ocs_design.simulation.run import UPRIGHT_TILT
 from ocs_design.simulation.verdict import ends_anyhow, landing_attitude, off_asked
 
-WORSE = np.radians(1.0)
+SWING_INCREASE_NOTED = np.radians(1.0)
 """Increase of the swing on the ground by the device above which it is reported [rad]."""
 
-SAME_ANGLE = 1e-9
+ANGLE_TOLERANCE = 1e-9
 """Difference below which incidences count as equal [rad]."""
 
-JUMP_OFF = 0.05
+HEIGHT_ERROR_NOTED = 0.05
 """Relative error of a jump's height above which it is reported."""
 
-SPENT = 0.95
-"""Share of its top speed above which a wheel can absorb almost no more momentum."""
+NEARLY_SATURATED = 0.95
+"""Share of its top speed above which a wheel can absorb hardly any more momentum."""
 
 _COLUMNS = (
     "\nroll [deg]", "end\npitch [deg]", "\nroll [deg]", "turned [deg]", "wheel\nspeed [rpm]",
@@ -42,12 +42,12 @@ _COLUMNS = (
 """Columns after the verdict and the pitch at touchdown."""
 
 # A robot is expected to fail without the device, so that is no alarm.
-_WITH = {
+_VERDICTS = {
     True: Toned("pass", Tone.PASS),
     False: Toned("FAIL", Tone.FAIL),
     None: Toned("not judged", Tone.OPEN),
 }
-_WITHOUT = {**_WITH, False: Toned("fails", Tone.PLAIN)}
+_VERDICTS_WITHOUT_DEVICE = {**_VERDICTS, False: Toned("fails", Tone.PLAIN)}
 
 
 def off_level(roll: ArrayLike, pitch: ArrayLike) -> FloatArray:
@@ -55,39 +55,39 @@ def off_level(roll: ArrayLike, pitch: ArrayLike) -> FloatArray:
     return np.asarray(np.arccos(np.clip(np.cos(roll) * np.cos(pitch), -1.0, 1.0)))
 
 
-def flight_table(runs: Sequence[ValidationRecord], *, of_one: bool = False) -> CellTable:
+def flight_table(runs: Sequence[ValidationRecord], *, one_scenario: bool = False) -> CellTable:
     """Verdict, attitude at touchdown and at the end, and peak wheel figures of each run.
 
-    With `of_one`, all rows are of one scenario and are named "with" and "without".
+    With `one_scenario`, all rows are of one scenario and are named "with" and "without".
     """
-    first, bare = ("<device", "without") if of_one else ("<scenario", "  without")
-    names = ((("with" if of_one else run.scenario) if run.ocs else bare) for run in runs)
+    first, without = ("<device", "without") if one_scenario else ("<scenario", "  without")
+    names = ((("with" if one_scenario else run.scenario) if run.ocs else without) for run in runs)
     rows: list[tuple[Cell, ...]] = []
     for name, run in zip(names, runs, strict=True):
-        found, flew = run.metrics, was_in_the_air(*lift_off_and_touchdown(run.metrics))
-        shown = {
-            "touchdown_pitch": flew,
-            "touchdown_roll": flew,
+        metrics, was_airborne = run.metrics, was_in_the_air(*lift_off_and_touchdown(run.metrics))
+        is_known = {
+            "touchdown_pitch": was_airborne,
+            "touchdown_roll": was_airborne,
             "final_pitch": True,
             "final_roll": True,
-            "turned_angle": flew and not was_on_pivot(run),
+            "turned_angle": was_airborne and not was_on_pivot(run),
         }
-        angles = (found.get(each) if known else None for each, known in shown.items())
+        angles = (metrics.get(angle) if known else None for angle, known in is_known.items())
         speed, torque = (
-            found.get(each) if run.ocs else None
-            for each in ("peak_wheel_speed", "peak_wheel_torque")
+            metrics.get(peak) if run.ocs else None
+            for peak in ("peak_wheel_speed", "peak_wheel_torque")
         )
         rows.append(
             (
                 name,
-                (_WITH if run.ocs else _WITHOUT)[run.passed],
+                (_VERDICTS if run.ocs else _VERDICTS_WITHOUT_DEVICE)[run.passed],
                 *("-" if angle is None else degrees_number(angle) for angle in angles),
                 "-" if speed is None else rpm_number(speed),
                 "-" if torque is None else f"{torque:.3g}",
             )
         )
-    judged = {"when due" if was_on_pivot(run) else "touchdown" for run in runs}
-    when = " or ".join(sorted(judged, reverse=True)) or "touchdown"
+    judged_at = {"when due" if was_on_pivot(run) else "touchdown" for run in runs}
+    when = " or ".join(sorted(judged_at, reverse=True)) or "touchdown"
     return CellTable(columns(first, "<verdict", f"{when}\npitch [deg]", *_COLUMNS), tuple(rows))
 
 
@@ -105,38 +105,38 @@ def short_verdict(run: ValidationRecord, maneuver: Maneuver | None) -> Toned:
 
     Without the maneuver the flight is assumed to end level.
     """
-    word = (_WITH if run.ocs else _WITHOUT)[run.passed]
-    found = run.metrics
-    if run.passed is None or not found:
-        return word
-    roll, pitch = _angles(found, "touchdown_{}")
+    verdict = (_VERDICTS if run.ocs else _VERDICTS_WITHOUT_DEVICE)[run.passed]
+    metrics = run.metrics
+    if run.passed is None or not metrics:
+        return verdict
+    roll, pitch = _angles(metrics, "touchdown_{}")
     # As in `judge`.
-    angle, what = max(abs(roll), abs(pitch)), ""
+    angle, suffix = max(abs(roll), abs(pitch)), ""
     if maneuver is not None and maneuver.counts_turns:
-        angle, what = abs(found["turned_angle"] or 0.0), " turned"
-    elif found["touchdown_time"] == found["lift_off_time"]:
+        angle, suffix = abs(metrics["turned_angle"] or 0.0), " turned"
+    elif metrics["touchdown_time"] == metrics["lift_off_time"]:
         # A push on a standing robot.
-        angle, what = float(np.hypot(*_angles(found, "{}_swing"))), " swing"
+        angle, suffix = float(np.hypot(*_angles(metrics, "{}_swing"))), " swing"
     elif maneuver is not None and maneuver.heading_matters:
         if ends_anyhow(maneuver):
-            angle, what = found.get("touchdown_rate") or 0.0, " deg/s"
+            angle, suffix = metrics.get("touchdown_rate") or 0.0, " deg/s"
         elif any(landing_attitude(maneuver)[:2]):
             angle = float(off_asked(np.array([roll]), np.array([pitch]), maneuver)[0])
-            what = " off target"
-        what += f", heading {degrees_number(found['heading_drift'] or 0.0)}"
-    return Toned(f"{word.text:<5} {degrees_number(angle):>5}{what}", word.tone)
+            suffix = " off target"
+        suffix += f", heading {degrees_number(metrics['heading_drift'] or 0.0)}"
+    return Toned(f"{verdict.text:<5} {degrees_number(angle):>5}{suffix}", verdict.tone)
 
 
 def verdict_table(design: OcsDesign) -> CellTable:
     """Verdicts on each maneuver with the device and without, with their decisive angles."""
-    asked = {each.name: each.maneuver() for each in design.requirement.maneuvers}
-    bare = {run.scenario: run for run in design.validation if not run.ocs}
+    maneuvers = {record.name: record.maneuver() for record in design.requirement.maneuvers}
+    without_device = {run.scenario: run for run in design.validation if not run.ocs}
     rows = (
         (
             run.scenario,
             *(
-                "-" if each is None else short_verdict(each, asked.get(run.scenario))
-                for each in (run, bare.get(run.scenario))
+                "-" if flight is None else short_verdict(flight, maneuvers.get(run.scenario))
+                for flight in (run, without_device.get(run.scenario))
             ),
         )
         for run in design.validation
@@ -154,33 +154,33 @@ def run_sentence(run: ValidationRecord, *, with_note: bool = True) -> str:
 
 def flight_remarks(design: OcsDesign) -> Iterator[str]:
     """Remarks on flights that fail or are not judged, on poor landings, and on changed turns."""
-    carrying = [run for run in design.validation if run.ocs]
-    for run in carrying:
+    with_device = [run for run in design.validation if run.ocs]
+    for run in with_device:
         if run.passed is not True or (run.can_stand is False and run.stands is not False):
             yield run_sentence(run, with_note=False)
-    yield from filter(None, [falls(carrying)])
+    yield from filter(None, [fall_remark(with_device)])
     yield from landing_remarks(design)
-    about: dict[str, list[str]] = {}
-    for run in carrying:
+    scenarios_by_note: dict[str, list[str]] = {}
+    for run in with_device:
         if run.note:
-            about.setdefault(run.note, []).append(run.scenario)
-    yield from (f"{', '.join(names)}: {note}" for note, names in about.items())
+            scenarios_by_note.setdefault(run.note, []).append(run.scenario)
+    yield from (f"{', '.join(names)}: {note}" for note, names in scenarios_by_note.items())
 
 
-def turned_by_hand(design: OcsDesign) -> tuple[str, ...]:
-    """Maneuvers for which the modules must be turned by hand first."""
+def hand_turn_remarks(design: OcsDesign) -> tuple[str, ...]:
+    """Sentences on the maneuvers for which the modules must be turned by hand first."""
     demands = design.requirement.demands
-    return tuple(filter(None, (hand_turn(demand, design) for demand in demands)))
+    return tuple(filter(None, (hand_turn_remark(demand, design) for demand in demands)))
 
 
-def hand_turn(demand: DemandRecord, design: OcsDesign) -> str:
+def hand_turn_remark(demand: DemandRecord, design: OcsDesign) -> str:
     """Sentence on how the modules are turned for a maneuver; empty if they are not."""
-    own = design.ocs.incidence
-    if abs(demand.incidence - own) <= SAME_ANGLE:
+    incidence = design.ocs.incidence
+    if abs(demand.incidence - incidence) <= ANGLE_TOLERANCE:
         return ""
     return (
         f"{demand.source}: sized and flown with the modules turned by hand to "
-        f"{degrees(demand.incidence)}; the files have them at {degrees(own)}"
+        f"{degrees(demand.incidence)}; the files have them at {degrees(incidence)}"
     )
 
 
@@ -195,44 +195,44 @@ def survival_sentence(survival: SurvivalRecord) -> str:
     if not lost:
         return f"any one drive may fail ({count} flights); {case}"
     by_scenario: dict[str, dict[str, None]] = {}
-    for each in lost:
-        by_scenario.setdefault(each.scenario, {})[f"{each.instant:.2f}"] = None
-    when = (f"{name} {listed(list(instants))} s" for name, instants in by_scenario.items())
+    for flight in lost:
+        by_scenario.setdefault(flight.scenario, {})[f"{flight.instant:.2f}"] = None
+    failures = (f"{name} {listed(list(instants))} s" for name, instants in by_scenario.items())
     return (
         f"{len(lost)} of {count} flights with a failed drive end out of tolerance, for failures "
-        f"at: {'; '.join(when)}; {case}"
+        f"at: {'; '.join(failures)}; {case}"
     )
 
 
-def survival_words(design: OcsDesign) -> Iterator[str]:
+def survival_sentences(design: OcsDesign) -> Iterator[str]:
     """Sentences on the failure of a drive, and on the mass added to survive it if known."""
-    found = design.survival
-    if found is not None:
-        yield survival_sentence(found)
-        if found.mass_without is not None:
-            more = design.ocs.mass_total - found.mass_without
+    survival = design.survival
+    if survival is not None:
+        yield survival_sentence(survival)
+        if survival.mass_without is not None:
+            added_mass = design.ocs.mass_total - survival.mass_without
             yield (
-                f"{grams(more)} heavier than a device that need not survive it "
-                f"({grams(found.mass_without)})"
+                f"{grams(added_mass)} heavier than a device that need not survive it "
+                f"({grams(survival.mass_without)})"
             )
 
 
 def survival_table(survival: SurvivalRecord) -> CellTable:
     """Final error angle by the drive that fails and the share of the flight before the failure."""
     rows: dict[tuple[str, str], list[Cell]] = {}
-    for each in survival.flights:
-        text = "-" if each.tilt is None else degrees_number(each.tilt)
-        tone = Tone.PLAIN if each.lands else Tone.FAIL
-        rows.setdefault((each.scenario, each.module), []).append(Toned(text, tone))
+    for flight in survival.flights:
+        text = "-" if flight.tilt is None else degrees_number(flight.tilt)
+        tone = Tone.PLAIN if flight.lands else Tone.FAIL
+        rows.setdefault((flight.scenario, flight.module), []).append(Toned(text, tone))
     count = max(map(len, rows.values()))
-    shares = (f"{part / count:.0%}" for part in range(count))
+    shares = (f"{index / count:.0%}" for index in range(count))
     return CellTable(
         columns("<scenario", "<drive", *shares),
         tuple((*names, *cells) for names, cells in rows.items()),
     )
 
 
-def falls(runs: Sequence[ValidationRecord]) -> str:
+def fall_remark(runs: Sequence[ValidationRecord]) -> str:
     """Sentence on level landings that the legs cannot take; empty if there are none."""
     fallen = [run.scenario for run in runs if run.passed and run.stands is False]
     if not fallen:
@@ -243,64 +243,70 @@ def falls(runs: Sequence[ValidationRecord]) -> str:
     )
 
 
-def leaning(runs: Iterable[ValidationRecord]) -> Mapping[str, float]:
+def leaning_tilts(runs: Iterable[ValidationRecord]) -> Mapping[str, float]:
     """Final tilt [rad] of each robot that stays on its feet but not level, by scenario."""
-    stood = (run for run in runs if run.passed and run.can_stand)
-    ends = {run.scenario: float(off_level(*_angles(run.metrics, "final_{}"))) for run in stood}
-    return {name: end for name, end in ends.items() if end > LANDING_TOLERANCE}
+    standing = (run for run in runs if run.passed and run.can_stand)
+    tilts = {run.scenario: float(off_level(*_angles(run.metrics, "final_{}"))) for run in standing}
+    return {name: tilt for name, tilt in tilts.items() if tilt > LANDING_TOLERANCE}
 
 
-def leans(runs: Iterable[ValidationRecord]) -> str:
+def lean_remark(runs: Iterable[ValidationRecord]) -> str:
     """Sentence on the robots that end leaning; empty if there are none."""
-    ends = [f"{name} {degrees(end)}" for name, end in leaning(runs).items()]
-    if not ends:
+    tilts = [f"{name} {degrees(tilt)}" for name, tilt in leaning_tilts(runs).items()]
+    if not tilts:
         return ""
     return (
-        f"the robot stays on its feet and ends leaning: {', '.join(ends)} (more than "
+        f"the robot stays on its feet and ends leaning: {', '.join(tilts)} (more than "
         f"{degrees(float(UPRIGHT_TILT), 0)} would be a fall)"
     )
 
 
 def landing_remarks(design: OcsDesign) -> Iterator[str]:
     """Remarks on landings that the device does not improve, and on wheels left at high speed."""
-    carrying = [run for run in design.validation if run.ocs]
-    bare = {run.scenario: run for run in design.validation if not run.ocs}
+    with_device = [run for run in design.validation if run.ocs]
+    without_device = {run.scenario: run for run in design.validation if not run.ocs}
     swings = []
-    for run in carrying:
+    for run in with_device:
         swing = _swing(run)
-        alone = _swing(bare[run.scenario]) if run.scenario in bare else None
-        if swing is not None and alone is not None and swing > alone + WORSE:
-            swings.append(f"{run.scenario} {degrees(swing)}, {degrees(alone)} without")
+        swing_without = (
+            _swing(without_device[run.scenario]) if run.scenario in without_device else None
+        )
+        if (
+            swing is not None
+            and swing_without is not None
+            and swing > swing_without + SWING_INCREASE_NOTED
+        ):
+            swings.append(f"{run.scenario} {degrees(swing)}, {degrees(swing_without)} without")
     if swings:
         yield f"on the ground the trunk swings further with the device: {'; '.join(swings)}"
-    yield from filter(None, [leans(carrying)])
+    yield from filter(None, [lean_remark(with_device)])
     top = design.ocs.motor.top_speed
-    speeds = {run.scenario: run.metrics.get("final_wheel_speed") or 0.0 for run in carrying}
-    spent = [name for name, speed in speeds.items() if speed >= SPENT * top]
-    if spent:
+    speeds = {run.scenario: run.metrics.get("final_wheel_speed") or 0.0 for run in with_device}
+    saturated = [name for name, speed in speeds.items() if speed >= NEARLY_SATURATED * top]
+    if saturated:
         yield (
-            f"{', '.join(spent)}: a wheel ends at {rpm(max(speeds.values()))}, near its top speed, "
-            "and cannot help again until it is braked (try `validate --desaturate`)"
+            f"{', '.join(saturated)}: a wheel ends at {rpm(max(speeds.values()))}, near its top "
+            "speed, and cannot help again until it is braked (try `validate --desaturate`)"
         )
 
 
 def jump_remark(design: OcsDesign) -> str:
     """Sentence on jumps that are higher or lower than specified; empty if there are none."""
-    asked = {each.name: each.maneuver() for each in design.requirement.maneuvers}
-    others = []
+    maneuvers = {record.name: record.maneuver() for record in design.requirement.maneuvers}
+    deviations = []
     for run in design.validation:
-        maneuver, rise = asked.get(run.scenario), run.metrics.get("rise")
+        maneuver, rise = maneuvers.get(run.scenario), run.metrics.get("rise")
         height = 0.0 if maneuver is None else maneuver.rise
         if not run.ocs or not rise or not height:
             continue
-        if abs(rise / height - 1.0) > JUMP_OFF:
-            more = f"{rise / height - 1.0:+.1%}"
-            others.append(f"{run.scenario} {rise:.3f} m instead of {height:.3f} m ({more})")
-    if not others:
+        if abs(rise / height - 1.0) > HEIGHT_ERROR_NOTED:
+            error = f"{rise / height - 1.0:+.1%}"
+            deviations.append(f"{run.scenario} {rise:.3f} m instead of {height:.3f} m ({error})")
+    if not deviations:
         return ""
     return (
-        f"jumps rise higher or lower than asked: {', '.join(others)}, because the legs track the "
-        "push-off with an error; --ballistic starts at the exact lift-off speed"
+        f"jumps rise higher or lower than asked: {', '.join(deviations)}, because the legs track "
+        "the push-off with an error; --ballistic starts at the exact lift-off speed"
     )
 
 

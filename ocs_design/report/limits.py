@@ -31,13 +31,13 @@ from ocs_design.sizing.lightest_module import (
 from ocs_design.sizing.limits import LIMITS, TIME
 from ocs_design.sizing.margins import RMS_CURRENT
 
-_SHARE = 0.005
+_LEAST_SHARE = 0.005
 """Smallest share of the reserve that is shown."""
 
-_NOTHING = 5e-6
-"""Mass below the resolution of the report [kg]."""
+_NEGLIGIBLE_MASS = 5e-6
+"""Mass that the report shows as 0 [kg]."""
 
-MEANING = {
+LIMIT_MEANINGS = {
     HOUSING: "A larger rim would be lighter, but its housing would gain more than the rim saves.",
     MOUNT: "The screws of the motor's mount need a housing of this width.",
     BELL: "The motor's bell and the glue gap set the ring's bore, and the bell limits its height.",
@@ -51,17 +51,17 @@ MEANING = {
 }
 """Explanation of limits that the user cannot set."""
 
-_ROUNDED = 105
-"""Per cent of a capacity above which the excess is larger than the error of its figures."""
+_EXCEEDED_PERCENT = 105
+"""Utilization [%] above which a capacity is exceeded by more than the error of its figures."""
 
-_ROOM = {"outer radius": "r_max", "height": "h_max", "rim mass": "wheel_mass_max"}
+_RIM_LIMITS = {"outer radius": "r_max", "height": "h_max", "rim mass": "wheel_mass_max"}
 """Margins of the rim's envelope, and the limits that they refer to."""
 
-_LEFT_TO_US = (
+_RARELY_CHANGED = (
     *("Maneuvers", "Incidence", "Reserve", "Rim mass", "Stress"),
     *("Wheel", "Web", "Edges", "Housing", "Controllers", "Gear"),
 )
-"""Names of assumptions that few users would change."""
+"""Assumptions that few users would change, by name."""
 
 MARGIN_NOTE = (
     "The worst over all maneuvers, as planned and as flown from push-off to the end, landing "
@@ -80,14 +80,14 @@ _PRICE_NOTE = (
     "limit changes nothing."
 )
 
-TURNS = (
+NOTE_WITHOUT_MOTORS = (
     "Turns are sized for constant torque one way and then the other, at a peak rate of 2 theta / T:"
     " this needs the least torque. With more torque, as little as half this inertia may suffice; "
     "the flights decide."
 )
 """Note on demands of wheels without motors."""
 
-DRIVEN = (
+NOTE_ON_DRIVE = (
     "Momenta are those of constant torque one way and then the other. The spin inertia is what the "
     "chosen drive needs: if it holds its speed for a while, it needs less momentum."
 )
@@ -141,64 +141,73 @@ def margin_notes(margins: tuple[Margin, ...]) -> tuple[str, ...]:
     return tuple(f"{margin.name}: {margin.note}" for margin in margins if margin.note)
 
 
-def tightest(design: OcsDesign) -> Rows:
+def utilizations(design: OcsDesign) -> Rows:
     """Utilization of each limit in per cent, the highest first, and the names of the limits."""
-    used: dict[tuple[int, str], list[Margin]] = {}
+    by_utilization: dict[tuple[int, str], list[Margin]] = {}
     for margin in design.margins:
-        if margin.margin is not None and not _heats(margin):
+        if margin.margin is not None and not _exceeds_continuous_rating(margin):
             percent = int(ceiled(100.0 / margin.margin, 0))
-            used.setdefault((percent, margin.scenario), []).append(margin)
+            by_utilization.setdefault((percent, margin.scenario), []).append(margin)
     rows = []
-    for (percent, scenario), found in sorted(used.items(), key=lambda item: -item[0][0]):
+    for (percent, scenario), margins in sorted(
+        by_utilization.items(), key=lambda item: -item[0][0]
+    ):
         # The maneuver, and the remedy where the capacity is exceeded.
-        notes = [each.note for each in found] if percent > _ROUNDED else []
+        notes = [margin.note for margin in margins] if percent > _EXCEEDED_PERCENT else []
         text = "; ".join(filter(None, [scenario, *notes]))
-        names = listed([each.name for each in found])
+        names = listed([margin.name for margin in margins])
         rows.append((f"{percent:>3}%", f"{names} ({text})" if text else names))
     return tuple(rows)
 
 
-def _heats(margin: Margin) -> bool:
-    """Whether this is a current above the continuous rating, which requires a pause."""
+def _exceeds_continuous_rating(margin: Margin) -> bool:
+    """Whether this is a current above the motor's continuous rating, which requires a pause."""
     return margin.name == RMS_CURRENT and margin.margin is not None and margin.margin < 1.0
 
 
-def heat(design: OcsDesign) -> str:
-    """Current above the motor's continuous rating, and the pause it requires; empty if none."""
-    hot = [each for each in design.margins if _heats(each)]
+def pause_remark(design: OcsDesign) -> str:
+    """Currents above the motor's continuous rating, and the pauses they require; empty if none."""
+    overloads = [margin for margin in design.margins if _exceeds_continuous_rating(margin)]
     return "; ".join(
-        f"{quantity(each.demand, each.unit)} rms in {each.scenario} "
-        f"(continuous rating {quantity(each.capacity or 0.0, each.unit)}), {each.note}"
-        for each in hot
+        f"{quantity(margin.demand, margin.unit)} rms in {margin.scenario} "
+        f"(continuous rating {quantity(margin.capacity or 0.0, margin.unit)}), {margin.note}"
+        for margin in overloads
     )
 
 
-def assumed(sentences: Sequence[str]) -> Rows:
+def assumption_rows(sentences: Sequence[str]) -> Rows:
     """Assumptions that an engineer may want to change, by name."""
     named = (sentence.partition(": ") for sentence in sentences)
     return tuple(
         (name[0].lower() + name[1:], value.rstrip("."))
         for name, colon, value in named
-        if colon and name not in _LEFT_TO_US
+        if colon and name not in _RARELY_CHANGED
     )
 
 
-def lighter(design: OcsDesign) -> Rows:
+def saving_changes(design: OcsDesign) -> Rows:
     """Changes of the specification that save mass, largest first, and what else they change."""
-    now, motor = design.ocs.mass_total, design.ocs.motor.name
-    found = [
-        (each.mass_total - now, each)
-        for each in design.alternatives
-        if each.mass_total is not None and each.mass_total < now - _NOTHING
+    mass, motor = design.ocs.mass_total, design.ocs.motor.name
+    savings = [
+        (alternative.mass_total - mass, alternative)
+        for alternative in design.alternatives
+        if alternative.mass_total is not None and alternative.mass_total < mass - _NEGLIGIBLE_MASS
     ]
     return tuple(
         (
             f"-{grams(-change)}",
             "; ".join(
-                filter(None, [each.change, each.motor if each.motor != motor else "", each.note])
+                filter(
+                    None,
+                    [
+                        alternative.change,
+                        alternative.motor if alternative.motor != motor else "",
+                        alternative.note,
+                    ],
+                )
             ),
         )
-        for change, each in sorted(found, key=lambda item: item[0])
+        for change, alternative in sorted(savings, key=lambda item: item[0])
     )
 
 
@@ -208,49 +217,55 @@ def alternatives_table(design: OcsDesign) -> CellTable:
         columns("<change", "mass", "<motor", "<note"),
         tuple(
             (
-                each.change,
-                "no device" if each.mass_total is None else grams(each.mass_total),
-                each.motor,
-                each.note,
+                alternative.change,
+                "no device" if alternative.mass_total is None else grams(alternative.mass_total),
+                alternative.motor,
+                alternative.note,
             )
-            for each in design.alternatives
-            if each.note != SAVES_NOTHING
+            for alternative in design.alternatives
+            if alternative.note != SAVES_NOTHING
         ),
     )
 
 
-def alternatives_note(design: OcsDesign) -> str:
+def useless_changes_note(design: OcsDesign) -> str:
     """Sentence on the changes that save nothing; empty if all save mass."""
-    vain = [each.change for each in design.alternatives if each.note == SAVES_NOTHING]
-    return f"These save nothing: {'; '.join(vain)}." if vain else ""
+    useless = [
+        alternative.change
+        for alternative in design.alternatives
+        if alternative.note == SAVES_NOTHING
+    ]
+    return f"These save nothing: {'; '.join(useless)}." if useless else ""
 
 
 def lighter_table(design: OcsDesign) -> CellTable:
     """Changes that would each make the device lighter by the requested mass."""
     changes = () if design.lighter is None else design.lighter.changes
-    rows = tuple((each.change, grams(each.mass_total or 0.0), each.motor) for each in changes)
+    rows = tuple(
+        (change.change, grams(change.mass_total or 0.0), change.motor) for change in changes
+    )
     return CellTable(columns("<any one of these suffices", "mass", "<motor"), rows)
 
 
-def owed_to(design: OcsDesign) -> str:
+def driving_maneuver_text(design: OcsDesign) -> str:
     """Maneuver that drives the mass, to follow "driven by"; empty if it is not known."""
-    owed = design.owed
-    if owed is None:
+    driving = design.owed
+    if driving is None:
         return ""
-    if not owed.maneuver:
+    if not driving.maneuver:
         return "no single maneuver; dropping any one of them saves nothing"
-    if owed.mass_without is None:
-        return f"{owed.maneuver}, the only maneuver"
-    return f"{owed.maneuver} (without it {grams(owed.mass_without)})"
+    if driving.mass_without is None:
+        return f"{driving.maneuver}, the only maneuver"
+    return f"{driving.maneuver} (without it {grams(driving.mass_without)})"
 
 
 def open_points(design: OcsDesign) -> CellTable:
     """Points that keep the device from being built, each with its cure."""
     points = design.buildable.open
-    return CellTable(columns("<what", "<cure"), tuple((each.what, each.cure) for each in points))
+    return CellTable(columns("<what", "<cure"), tuple((point.what, point.cure) for point in points))
 
 
-def holding_up(design: OcsDesign) -> list[str]:
+def active_limit_names(design: OcsDesign) -> list[str]:
     """Limits that set the mass: keys of the specification verbatim, others in words."""
     keys = {limit.label for limit in LIMITS.values()}
     return [name if name in keys else name.replace("_", " ") for name in design.sizing.binding]
@@ -258,8 +273,9 @@ def holding_up(design: OcsDesign) -> list[str]:
 
 def active_limits(design: OcsDesign) -> tuple[str, str]:
     """Names of the limits that set the mass, and their explanations."""
-    meanings = (MEANING[name] for name in design.sizing.binding if name in MEANING)
-    return ", ".join(holding_up(design)) or "none: the rim is within all limits", " ".join(meanings)
+    meanings = (LIMIT_MEANINGS[name] for name in design.sizing.binding if name in LIMIT_MEANINGS)
+    names = ", ".join(active_limit_names(design))
+    return names or "none: the rim is within all limits", " ".join(meanings)
 
 
 def saving_table(design: OcsDesign) -> CellTable:
@@ -269,10 +285,10 @@ def saving_table(design: OcsDesign) -> CellTable:
         # The rim's envelope, from the margins; then every other active limit.
         active = {}
         for margin in design.margins:
-            name = _ROOM.get(margin.name)
+            name = _RIM_LIMITS.get(margin.name)
             if name is not None and margin.capacity is not None:
                 used, allowed = (
-                    quantity(each, margin.unit) for each in (margin.demand, margin.capacity)
+                    quantity(value, margin.unit) for value in (margin.demand, margin.capacity)
                 )
                 active[name] = (f"{margin.name} ({name})", used, allowed)
         for name in design.sizing.binding:
@@ -286,12 +302,12 @@ def saving_table(design: OcsDesign) -> CellTable:
         limit = LIMITS[price.limit]
         change = f"{price.changed - price.value:+.0%}"
         if limit is not TIME:
-            figures = (price.value, price.changed)
-            before, after = (significant(value * limit.per_si, 4) for value in figures)
+            values = (price.value, price.changed)
+            before, after = (significant(value * limit.per_si, 4) for value in values)
             change = f"{before} to {after} {limit.unit}".rstrip()
         saved = -price.mass_change
         rows.append(
-            (limit.label, change, f"{1e3 * saved:.2f} g" if saved > _NOTHING else "nothing")
+            (limit.label, change, f"{1e3 * saved:.2f} g" if saved > _NEGLIGIBLE_MASS else "nothing")
         )
     return CellTable(columns("<limit", "change", "mass saved"), tuple(rows))
 
@@ -307,45 +323,47 @@ def saving_notes(design: OcsDesign) -> str:
         "material."
     )
     if others:
-        apart = 1e3 * (others[0].mass - chosen.mass)
+        difference = 1e3 * (others[0].mass - chosen.mass)
         note += (
-            f" The next lightest drive, {drive_name(others[0])}, is {apart:.1f} g heavier: a "
+            f" The next lightest drive, {drive_name(others[0])}, is {difference:.1f} g heavier: a "
             "change that makes another drive the lightest saves more than is shown here."
         )
     return note
 
 
-def reserve_table(kept: ReserveRecord) -> CellTable:
+def reserve_table(reserve: ReserveRecord) -> CellTable:
     """Share of each uncertain quantity in the reserve, and the mass that knowing it would save."""
     return CellTable(
         columns("<key of [reality]", "share of the reserve", "saved if known exactly"),
         tuple(
             (cost.key, f"{100.0 * cost.share:.0f} %", grams(max(cost.mass, 0.0)))
-            for cost in kept.costs
-            if cost.share >= _SHARE
+            for cost in reserve.costs
+            if cost.share >= _LEAST_SHARE
         ),
     )
 
 
-def reserve_note(kept: ReserveRecord, mass: float) -> str:
+def reserve_note(reserve: ReserveRecord, mass: float) -> str:
     """Size of the reserve, its cost, and the mass as a function of the reliability."""
     factors = ", ".join(
-        f"{each.maneuver} {each.needed:.2f}"
-        + (f" with a roll of {degrees(each.undone)}/s at lift-off" if each.undone else "")
-        for each in kept.maneuvers
+        f"{maneuver.maneuver} {maneuver.needed:.2f}"
+        + (f" with a roll of {degrees(maneuver.undone)}/s at lift-off" if maneuver.undone else "")
+        for maneuver in reserve.maneuvers
     )
-    masses, curve = [each for _, each in kept.curve], ""
-    if masses and max(masses) - min(masses) < _NOTHING:
-        most = f"{100.0 * kept.curve[-1][0]:g} %"
+    masses, curve = [device_mass for _, device_mass in reserve.curve], ""
+    if masses and max(masses) - min(masses) < _NEGLIGIBLE_MASS:
+        most = f"{100.0 * reserve.curve[-1][0]:g} %"
         curve = f"No extra mass up to {most}."
     elif masses:
-        each = ", ".join(f"{grams(mass)} for {100.0 * level:g} %" for level, mass in kept.curve)
-        curve = f"With the same motor and material the device weighs {each}."
+        masses_text = ", ".join(
+            f"{grams(device_mass)} for {100.0 * level:g} %" for level, device_mass in reserve.curve
+        )
+        curve = f"With the same motor and material the device weighs {masses_text}."
     return (
-        f"To cover {100.0 * kept.reliability:g} % of robots, the demands are multiplied by: "
+        f"To cover {100.0 * reserve.reliability:g} % of robots, the demands are multiplied by: "
         f"{factors}; the nominal device covers factors up to 1. The closed forms predict that "
-        f"{100.0 * kept.predicted:.1f} % pass; the reserve costs "
-        f"{grams(max(mass - kept.nominal, 0.0))}. {curve}"
+        f"{100.0 * reserve.predicted:.1f} % pass; the reserve costs "
+        f"{grams(max(mass - reserve.nominal, 0.0))}. {curve}"
     )
 
 

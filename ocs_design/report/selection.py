@@ -10,7 +10,7 @@ from ocs_design.device.records.requirement import ManeuverRecord
 from ocs_design.device.records.selection import RankedRecord, SelectionRecord
 from ocs_design.report.table import CellTable, Rows, columns
 
-SHOWN = 5
+DRIVES_SHOWN = 5
 """Drives that the terminal shows; with -v it shows the whole ranking."""
 
 
@@ -44,7 +44,7 @@ def task_table(selection: SelectionRecord) -> CellTable:
     )
 
 
-_SHOWN = 5e-4
+_INERTIA_RESOLUTION = 5e-4
 """Relative difference of spin inertias that is invisible in four digits."""
 
 
@@ -54,18 +54,22 @@ def task_note(selection: SelectionRecord, maneuvers: Iterable[ManeuverRecord]) -
         f"Needed: the shortest time at {selection.reserve:.0%} of the voltage, current and speed "
         "limits."
     )
-    if any("pivot" in each.parameters for each in maneuvers):
+    if any("pivot" in maneuver.parameters for maneuver in maneuvers):
         needed += (
             " On a pivot both times are of a turn without gravity that needs the same torque and "
             "momentum."
         )
-    most = max((task.spin_inertia for task in selection.tasks), default=0.0)
-    tied = [task.source for task in selection.tasks if task.spin_inertia > most * (1.0 - _SHOWN)]
-    if not selection.binding_maneuver or not tied:
+    largest = max((task.spin_inertia for task in selection.tasks), default=0.0)
+    deciding = [
+        task.source
+        for task in selection.tasks
+        if task.spin_inertia > largest * (1.0 - _INERTIA_RESOLUTION)
+    ]
+    if not selection.binding_maneuver or not deciding:
         return needed
-    if len(tied) == len(selection.tasks) > 1:
+    if len(deciding) == len(selection.tasks) > 1:
         return f"{needed} All need the same spin inertia."
-    return f"{needed} The largest spin inertia is for {listed(tied)}."
+    return f"{needed} The largest spin inertia is for {listed(deciding)}."
 
 
 def drive_table(drives: tuple[RankedRecord, ...]) -> CellTable:
@@ -74,14 +78,14 @@ def drive_table(drives: tuple[RankedRecord, ...]) -> CellTable:
         columns("<lightest drives", "device [g]", "<rim", "R [mm]", "h [mm]", "alpha [deg]"),
         tuple(
             (
-                drive_name(each),
-                f"{1e3 * each.mass:.1f}",
-                each.material,
-                f"{1e3 * each.outer_radius:.1f}",
-                f"{1e3 * each.height:.1f}",
-                degrees_number(each.incidence),
+                drive_name(drive),
+                f"{1e3 * drive.mass:.1f}",
+                drive.material,
+                f"{1e3 * drive.outer_radius:.1f}",
+                f"{1e3 * drive.height:.1f}",
+                degrees_number(drive.incidence),
             )
-            for each in drives
+            for drive in drives
         ),
     )
 
@@ -100,19 +104,22 @@ def best_drives(ranking: tuple[RankedRecord, ...]) -> tuple[RankedRecord, ...]:
 
 
 def shown_drives(ranking: tuple[RankedRecord, ...]) -> tuple[RankedRecord, ...]:
-    """Lightest drive of each motor, since not all can be bought; then more gears, up to `SHOWN`."""
+    """Lightest drive of each motor, since not all can be bought; then more gears.
+
+    At most `DRIVES_SHOWN` in all.
+    """
     drives = best_drives(ranking)
     motors: dict[str, RankedRecord] = {}
     for entry in drives:
         motors.setdefault(entry.motor, entry)
-    first = tuple(motors.values())
-    shown = (*first, *(entry for entry in drives if entry not in first))[:SHOWN]
+    lightest = tuple(motors.values())
+    shown = (*lightest, *(entry for entry in drives if entry not in lightest))[:DRIVES_SHOWN]
     return tuple(entry for entry in drives if entry in shown)
 
 
 def ruled_out(selection: SelectionRecord) -> str:
     """Number of motors ruled out, by reason; empty if none was."""
-    counts = Counter(each.reason for each in selection.rejections).most_common()
+    counts = Counter(rejection.reason for rejection in selection.rejections).most_common()
     if not counts:
         return ""
     reasons = ", ".join(f"{reason} ({count})" for reason, count in counts)
@@ -121,20 +128,25 @@ def ruled_out(selection: SelectionRecord) -> str:
 
 def rejection_details(selection: SelectionRecord) -> tuple[str, ...]:
     """Why each motor was ruled out, with figures."""
-    return tuple(f"{each.motor}: {each.detail}" for each in selection.rejections)
+    return tuple(f"{rejection.motor}: {rejection.detail}" for rejection in selection.rejections)
 
 
 def co_design_facts(selection: SelectionRecord) -> Rows:
     """Result of the co-design by optimal control; empty if it was not requested."""
-    found = selection.co_design
-    if found is None:
+    co_design = selection.co_design
+    if co_design is None:
         return ()
-    rows = [("solver", f"{found.status}, {found.iterations} iterations")]
-    if found.mass is not None:
-        change = found.mass / found.selected_mass - 1.0
+    rows = [("solver", f"{co_design.status}, {co_design.iterations} iterations")]
+    if co_design.mass is not None:
+        change = co_design.mass / co_design.selected_mass - 1.0
         rows.append(
-            ("device", f"{grams(found.mass)} against {grams(found.selected_mass)} ({change:+.2%})")
+            (
+                "device",
+                f"{grams(co_design.mass)} against {grams(co_design.selected_mass)} ({change:+.2%})",
+            )
         )
-    if found.violation is not None:
-        rows.append(("violation", f"{found.violation:.1e} (relative), on a grid ten times finer"))
-    return (*rows, ("outcome", found.remark))
+    if co_design.violation is not None:
+        rows.append(
+            ("violation", f"{co_design.violation:.1e} (relative), on a grid ten times finer")
+        )
+    return (*rows, ("outcome", co_design.remark))

@@ -1,4 +1,4 @@
-"""Recognised structure of a robot drawn from three sides: an SVG of lines, boxes and words."""
+"""Recognised structure of a robot drawn from three sides: an SVG of lines, boxes and names."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from html import escape
@@ -10,11 +10,11 @@ from ocs_design.robot.leg_geometry import up_axis
 from ocs_design.robot.meshes import extent_of, solid_shapes
 from ocs_design.robot.robot import Leg, Robot
 
-_SIDE = 300.0
+_VIEW_SIZE = 300.0
 """Width and height of one view [px]."""
 
-_EDGE = 34.0
-_NAMES, _LETTER, _LINE = 10, 7.0, 11.0
+_MARGIN = 34.0
+_NAME_SIZE, _LETTER_WIDTH, _LINE_HEIGHT = 10, 7.0, 11.0
 """Size of the names of feet, largest mean width of a letter, and height of a line [px]."""
 
 _COLORS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8a6d00", "#6a3d9a")
@@ -28,8 +28,8 @@ _VIEWS = (
 """Name, direction to the right and direction up the page of each view, in B."""
 
 
-def stick_figure(robot: Robot, legs: Sequence[Leg], words: Sequence[str]) -> str:
-    """SVG of a robot in its posture, from the right, the front and above, with words below.
+def stick_figure(robot: Robot, legs: Sequence[Leg], lines: Sequence[str]) -> str:
+    """SVG of a robot in its posture, from the right, the front and above, with lines of text below.
 
     The trunk is a box and every other body a line to its parent. The legs, recognised or most
     likely, are coloured and their feet named.
@@ -46,30 +46,33 @@ def stick_figure(robot: Robot, legs: Sequence[Leg], words: Sequence[str]) -> str
         if (reach := extent_of(shapes, place.rotation.T @ side)) is not None
     ]
     if len(reaches) == 6:
-        ends = np.array([[-reaches[axis + 3], reaches[axis]] for axis in range(3)])
-        corners += list(np.stack(np.meshgrid(*ends), axis=-1).reshape(-1, 3))
+        limits = np.array([[-reaches[axis + 3], reaches[axis]] for axis in range(3)])
+        corners += list(np.stack(np.meshgrid(*limits), axis=-1).reshape(-1, 3))
     points = np.array([*(place.position for place in places), *feet.values(), *corners])
     low, high = points.min(axis=0), points.max(axis=0)
-    scale = (_SIDE - 2.0 * _EDGE) / max(float((high - low).max()), 1e-9)
-    width = _EDGE + len(_VIEWS) * (_SIDE + _EDGE)
-    height = 2.0 * _EDGE + _SIDE + 18.0 * len(words)
-    marks: list[str] = []
+    scale = (_VIEW_SIZE - 2.0 * _MARGIN) / max(float((high - low).max()), 1e-9)
+    width = _MARGIN + len(_VIEWS) * (_VIEW_SIZE + _MARGIN)
+    height = 2.0 * _MARGIN + _VIEW_SIZE + 18.0 * len(lines)
+    elements: list[str] = []
     for index, (name, right, up) in enumerate(_VIEWS):
-        left, axes = _EDGE + index * (_SIDE + _EDGE), scale * np.array([right, -np.array(up)])
-        marks.append(_text(left, _EDGE - 10.0, name, size=14))
-        origin = np.array([left, _EDGE]) + 0.5 * _SIDE - axes @ (0.5 * (low + high))
-        marks += _drawn(origin, axes, robot, legs, feet=feet, corners=corners)
-    for row, line in enumerate(words):
-        marks.append(_text(_EDGE, 2.0 * _EDGE + _SIDE + 18.0 * row, line, size=13))
+        left, axes = (
+            _MARGIN + index * (_VIEW_SIZE + _MARGIN),
+            scale * np.array([right, -np.array(up)]),
+        )
+        elements.append(_text(left, _MARGIN - 10.0, name, size=14))
+        origin = np.array([left, _MARGIN]) + 0.5 * _VIEW_SIZE - axes @ (0.5 * (low + high))
+        elements += _view_elements(origin, axes, robot, legs, feet=feet, corners=corners)
+    for row, line in enumerate(lines):
+        elements.append(_text(_MARGIN, 2.0 * _MARGIN + _VIEW_SIZE + 18.0 * row, line, size=13))
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:.0f} {height:.0f}" '
         f'width="{width:.0f}" height="{height:.0f}" font-family="sans-serif">\n'
         f"<title>{escape(robot.name)}</title>\n"
-        f'<rect width="100%" height="100%" fill="white"/>\n' + "\n".join(marks) + "\n</svg>\n"
+        f'<rect width="100%" height="100%" fill="white"/>\n' + "\n".join(elements) + "\n</svg>\n"
     )
 
 
-def _drawn(
+def _view_elements(
     origin: FloatArray,
     axes: FloatArray,
     robot: Robot,
@@ -90,49 +93,51 @@ def _drawn(
     places = robot.tree.placements_from(robot.trunk, robot.posture)
     joints = [origin + axes @ place.position for place in places]
     if corners:
-        spots = origin + np.array(corners) @ axes.T
-        (x, y), (far, low) = spots.min(axis=0), spots.max(axis=0)
+        pixels = origin + np.array(corners) @ axes.T
+        (x, y), (right, bottom) = pixels.min(axis=0), pixels.max(axis=0)
         yield (
-            f'<rect x="{x:.1f}" y="{y:.1f}" width="{far - x:.1f}" height="{low - y:.1f}" '
+            f'<rect x="{x:.1f}" y="{y:.1f}" width="{right - x:.1f}" height="{bottom - y:.1f}" '
             f'fill="#dddddd" stroke="#555555"/>'
         )
-    color = {}
+    color_by_body = {}
     for number, leg in enumerate(legs):
         place = leg.body
         while place not in (leg.base, -1):
-            color[place] = _COLORS[number % len(_COLORS)]
+            color_by_body[place] = _COLORS[number % len(_COLORS)]
             place = robot.tree.bodies[place].parent
     for index, body in enumerate(robot.tree.bodies):
         if body.parent >= 0:
-            width = 3.0 if index in color else 1.5
-            yield _line(joints[body.parent], joints[index], color.get(index, "#999999"), width)
-    named: list[tuple[float, float, float]] = []
+            width = 3.0 if index in color_by_body else 1.5
+            yield _line(
+                joints[body.parent], joints[index], color_by_body.get(index, "#999999"), width
+            )
+    names: list[tuple[float, float, float]] = []
     for number, leg in enumerate(legs):
-        foot, paint = origin + axes @ feet[leg.name], _COLORS[number % len(_COLORS)]
+        foot, color = origin + axes @ feet[leg.name], _COLORS[number % len(_COLORS)]
         radius = max(3.5, float(np.abs(axes).max()) * leg.foot_radius)
-        yield _line(joints[leg.body], foot, paint, 3.0)
+        yield _line(joints[leg.body], foot, color, 3.0)
         yield (
-            f'<circle cx="{foot[0]:.1f}" cy="{foot[1]:.1f}" r="{radius:.1f}" fill="{paint}" '
-            f'fill-opacity="0.5" stroke="{paint}"/>'
+            f'<circle cx="{foot[0]:.1f}" cy="{foot[1]:.1f}" r="{radius:.1f}" fill="{color}" '
+            f'fill-opacity="0.5" stroke="{color}"/>'
         )
         # Names of feet that lie behind each other would overlap.
-        x, y, across = float(foot[0]) + 5.0, float(foot[1]) + 12.0, _LETTER * len(leg.name)
+        x, y, width = float(foot[0]) + 5.0, float(foot[1]) + 12.0, _LETTER_WIDTH * len(leg.name)
         while any(
-            abs(y - other) < _LINE and start < x + across and x < start + wide
-            for start, other, wide in named
+            abs(y - other_y) < _LINE_HEIGHT and start < x + width and x < start + other_width
+            for start, other_y, other_width in names
         ):
-            y += _LINE
-        named.append((x, y, across))
-        yield _text(x, y, leg.name, size=_NAMES, fill=paint)
+            y += _LINE_HEIGHT
+        names.append((x, y, width))
+        yield _text(x, y, leg.name, size=_NAME_SIZE, fill=color)
     # Arrows from the trunk's origin: forward, left and up.
     up = up_axis(robot.tree, robot.trunk, legs) if legs else np.array([0.0, 0.0, 1.0])
     for name, axis in {"forward": np.eye(3)[0], "left": np.eye(3)[1], "up": up}.items():
-        along = axes @ axis / np.abs(axes).max()
-        if np.linalg.norm(along) < 0.5:
+        direction = axes @ axis / np.abs(axes).max()
+        if np.linalg.norm(direction) < 0.5:
             continue
-        end, side = origin + 46.0 * along, np.array([-along[1], along[0]])
+        end, normal = origin + 46.0 * direction, np.array([-direction[1], direction[0]])
         yield _line(origin, end, "black", 1.5)
-        tip = [end, end - 8.0 * along + 4.0 * side, end - 8.0 * along - 4.0 * side]
+        tip = [end, end - 8.0 * direction + 4.0 * normal, end - 8.0 * direction - 4.0 * normal]
         yield f'<polygon points="{" ".join(f"{x:.1f},{y:.1f}" for x, y in tip)}"/>'
         yield _text(end[0] + 4.0, end[1] - 4.0, name, size=11)
 

@@ -92,7 +92,7 @@ class RecordedFlight:
         return was_in_the_air(self.lift_off, self.touchdown)
 
 
-def flights_of(
+def recorded_flights(
     records: Sequence[ValidationRecord], runs: Sequence[Run]
 ) -> tuple[RecordedFlight, ...]:
     """Runs of a simulation and their records as flights to plot."""
@@ -153,7 +153,7 @@ def story_in(
                 heading, *rows = csv.reader(file)
             values = np.array(rows, dtype=np.float64)
             flights.append(RecordedFlight.of(record, dict(zip(heading, values.T, strict=True))))
-    shown = flights_of(design.validation, runs) if runs else tuple(flights)
+    shown = recorded_flights(design.validation, runs) if runs else tuple(flights)
     picture = _first_file(folders, f"robot/{safe_name(design.robot.name)}_ocs.glb")
     bodies = () if picture is None else read_bodies(picture.read_bytes())
     campaign = read_campaign(folders)

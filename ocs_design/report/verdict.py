@@ -7,7 +7,13 @@ from ocs_design.device.answers import Validated
 from ocs_design.device.records.design import OcsDesign
 from ocs_design.device.records.flights import Conclusion, ValidationRecord
 from ocs_design.report.device import has_motor
-from ocs_design.report.flights import falls, leaning, leans, survival_sentence, turned_by_hand
+from ocs_design.report.flights import (
+    fall_remark,
+    hand_turn_remarks,
+    lean_remark,
+    leaning_tilts,
+    survival_sentence,
+)
 from ocs_design.report.monte_carlo import certificate_line
 from ocs_design.report.table import Tone, Toned
 
@@ -21,12 +27,12 @@ class Headline:
 
     Attributes:
         parts: parts of the line, each with its tone.
-        matter: the finding that matters most, as a sentence; empty if there is none.
-        flight: scenario that `matter` is about; empty if it is about something else.
+        main_finding: the finding that matters most, as a sentence; empty if there is none.
+        flight: scenario that `main_finding` is about; empty if it is about something else.
     """
 
     parts: tuple[Toned, ...]
-    matter: str
+    main_finding: str
     flight: str = ""
 
     @property
@@ -35,9 +41,9 @@ class Headline:
         return SEPARATOR.join(part.text for part in self.parts)
 
     @property
-    def whole(self) -> str:
-        """The line, with the most important finding at its end."""
-        return SEPARATOR.join(filter(None, [self.text, self.matter]))
+    def with_finding(self) -> str:
+        """The line, with the main finding at its end."""
+        return SEPARATOR.join(filter(None, [self.text, self.main_finding]))
 
     @property
     def tone(self) -> Tone:
@@ -46,46 +52,46 @@ class Headline:
         return next(tone for tone in (Tone.FAIL, Tone.OPEN, Tone.PASS) if tone in tones)
 
 
-def headline(found: OcsDesign | Validated) -> Headline:
+def headline(result: OcsDesign | Validated) -> Headline:
     """Verdict on a design and its flights, or on flights alone; those with the device count."""
-    runs, survival = [run for run in found.validation if run.ocs], found.survival
-    parts, by_hand, shortage = [], "", ""
-    if isinstance(found, OcsDesign):
-        certified = found.reliability
-        parts.append(_buildable(found))
-        by_hand = next(iter(turned_by_hand(found)), "")
-        if found.buildable.yes is False and found.buildable.open:
-            shortage = f"{found.buildable.open[0].what}; {found.buildable.open[0].cure}"
+    runs, survival = [run for run in result.validation if run.ocs], result.survival
+    parts, hand_turn, shortage = [], "", ""
+    if isinstance(result, OcsDesign):
+        certificate = result.reliability
+        parts.append(_buildable(result))
+        hand_turn = next(iter(hand_turn_remarks(result)), "")
+        if result.buildable.yes is False and result.buildable.open:
+            shortage = f"{result.buildable.open[0].what}; {result.buildable.open[0].cure}"
     else:
-        certified = None if found.monte_carlo is None else found.monte_carlo.certificate
+        certificate = None if result.monte_carlo is None else result.monte_carlo.certificate
     parts += _flights(runs)
     if survival is not None:
         count = len(survival.flights)
         parts.append(
             _share("survives a drive failure", count - len(survival.lost), count, Tone.FAIL)
         )
-    if certified is not None:
+    if certificate is not None:
         tones = {
             Conclusion.CERTIFIED: Tone.PASS,
             Conclusion.SHORT: Tone.FAIL,
             Conclusion.UNDECIDED: Tone.OPEN,
         }
-        verdict = f"{100.0 * certified.asked:.4g} % {certified.verdict}"
-        parts.append(Toned(verdict, tones[certified.verdict]))
+        verdict = f"{100.0 * certificate.asked:.4g} % {certificate.verdict}"
+        parts.append(Toned(verdict, tones[certificate.verdict]))
     # Failures come before flights that were not judged.
-    worst = sorted(runs, key=lambda run: run.passed is None)
-    fault = next((run for run in worst if run.passed is not True), None)
+    by_severity = sorted(runs, key=lambda run: run.passed is None)
+    fault = next((run for run in by_severity if run.passed is not True), None)
     if fault is not None and not shortage:
         return Headline(tuple(parts), f"{fault.scenario}: {fault.reason}", fault.scenario)
-    matters = (
+    findings = (
         shortage,
-        falls(runs),
-        leans(runs),
+        fall_remark(runs),
+        lean_remark(runs),
         survival_sentence(survival) if survival is not None and survival.lost else "",
-        by_hand,
-        "" if certified is None else certificate_line(certified),
+        hand_turn,
+        "" if certificate is None else certificate_line(certificate),
     )
-    return Headline(tuple(parts), next(filter(None, matters), ""))
+    return Headline(tuple(parts), next(filter(None, findings), ""))
 
 
 def _buildable(design: OcsDesign) -> Toned:
@@ -105,15 +111,15 @@ def _flights(runs: Sequence[ValidationRecord]) -> Iterator[Toned]:
         yield Toned("no flight was simulated", Tone.OPEN)
         return
     unjudged = [run.passed for run in runs].count(None)
-    touching = [run.level for run in runs if run.level is not None or run.passed is None]
-    if touching:
-        yield _share("level", touching.count(True), len(touching), Tone.FAIL)
+    judged = [run.level for run in runs if run.level is not None or run.passed is None]
+    if judged:
+        yield _share("level", judged.count(True), len(judged), Tone.FAIL)
     standing = [run for run in runs if run.stands is not None]
     if standing:
         # The device is not at fault if the legs cannot take even a level landing.
-        fault = any(run.stands is False and run.passed is False for run in standing)
-        up, tilted = [run.stands for run in standing].count(True), len(leaning(runs))
-        part = _share("stands", up, len(standing), Tone.FAIL if fault else Tone.OPEN)
+        is_device_fault = any(run.stands is False and run.passed is False for run in standing)
+        upright, tilted = [run.stands for run in standing].count(True), len(leaning_tilts(runs))
+        part = _share("stands", upright, len(standing), Tone.FAIL if is_device_fault else Tone.OPEN)
         if tilted:
             tone = Tone.OPEN if part.tone is Tone.PASS else part.tone
             part = Toned(f"{part.text}, {tilted} leaning", tone)
@@ -125,5 +131,5 @@ def _flights(runs: Sequence[ValidationRecord]) -> Iterator[Toned]:
         yield Toned(f"{passed} of {len(runs)} pass", Tone.FAIL)
 
 
-def _share(word: str, good: int, of: int, otherwise: Tone) -> Toned:
-    return Toned(f"{word} {good} of {of}", Tone.PASS if good == of else otherwise)
+def _share(word: str, good: int, total: int, tone: Tone) -> Toned:
+    return Toned(f"{word} {good} of {total}", Tone.PASS if good == total else tone)

@@ -27,7 +27,7 @@ STRIDE = 2
 Picture: TypeAlias = NDArray[np.uint8]
 """Red, green and blue, shape (height, width, 3)."""
 
-SIZE = 18
+LETTER_SIZE = 18
 """Height of letters [pixels]."""
 
 MARGIN = 10
@@ -36,7 +36,7 @@ _PAPER = (255, 255, 255)
 _HALO = 2
 """Width of the white halo around letters, which keeps them legible on any image [pixels]."""
 
-GIF_EVERY = 2
+GIF_STRIDE = 2
 """A GIF keeps one of so many frames, because GIFs compress badly."""
 
 GIF_COLORS = 128
@@ -44,14 +44,18 @@ GIF_COLORS = 128
 _SAMPLES = 8
 """Number of frames from which a GIF's palette is chosen."""
 
-_TIME_LIMIT = 300.0
+_ENCODING_TIMEOUT = 300.0
 """Longest time that ffmpeg may take [s]."""
 
 
-def film_or_tell(
+def film_if_possible(
     robot: Robot, device: Device, maneuvers: Sequence[Maneuver], runs: Sequence[Run], folder: Path
 ) -> tuple[str, ...]:
-    """Write the films of `film_flights` if OpenGL works; gives remarks on what is missing."""
+    """Write the films of `film_flights` if OpenGL works.
+
+    Returns:
+        Remarks on what is missing.
+    """
     try:
         films = film_flights(robot, device, maneuvers, runs, folder)
     except MissingToolError as error:
@@ -85,11 +89,11 @@ def film_flights(
             title, side = f"{run.scenario}, {'with' if run.ocs else 'without'} the device", []
             series = run.series
             for frame, time in zip(frames, pose.time[::STRIDE], strict=True):
-                at = min(int(np.searchsorted(series.time, time - 1e-9)), len(series.time) - 1)
-                tilt = float(off_level(series.roll[at], series.pitch[at]))
+                index = min(int(np.searchsorted(series.time, time - 1e-9)), len(series.time) - 1)
+                tilt = float(off_level(series.roll[index], series.pitch[index]))
                 lines = [f"{time:.2f} s   tilt {degrees(tilt, 0)}"]
                 if run.ocs:
-                    speeds = (rpm(float(speed)) for speed in series.wheel_speed[at])
+                    speeds = (rpm(float(speed)) for speed in series.wheel_speed[index])
                     lines.append(f"wheels {', '.join(speeds)}")
                 side.append(captioned(frame, title, run.passed, lines))
             sides.append(side)
@@ -104,19 +108,19 @@ def film_flights(
     return tuple(films)
 
 
-def captioned(picture: Picture, title: str, good: bool | None, lines: Sequence[str]) -> Picture:
+def captioned(picture: Picture, title: str, passed: bool | None, lines: Sequence[str]) -> Picture:
     """The picture with a title, coloured by the verdict if there is one, and lines below."""
     # Importing it takes time, and only films need it.
     from PIL import Image, ImageDraw, ImageFont  # noqa: PLC0415
 
     image = Image.fromarray(picture)
     draw = ImageDraw.Draw(image)
-    font = ImageFont.load_default(SIZE)
-    color = INK if good is None else GOOD if good else BAD
-    leading = SIZE + 6
+    font = ImageFont.load_default(LETTER_SIZE)
+    color = INK if passed is None else GOOD if passed else BAD
+    leading = LETTER_SIZE + 6
     top = image.height - MARGIN - leading * len(lines)
-    below = ((top + place * leading, line, INK) for place, line in enumerate(lines))
-    for height, text, ink in ((MARGIN, title, color), *below):
+    captions = ((top + index * leading, line, INK) for index, line in enumerate(lines))
+    for height, text, ink in ((MARGIN, title, color), *captions):
         draw.text((MARGIN, height), text, ink, font, stroke_width=_HALO, stroke_fill=_PAPER)
     return np.asarray(image)
 
@@ -137,7 +141,7 @@ def encode(pictures: Sequence[Picture], seconds: float, stem: Path) -> Path:
         # H.264, which all browsers play.
         codec = ["-c:v", "libx264", "-crf", "23", "-pix_fmt", "yuv420p", "-movflags", "+faststart"]
         with suppress(OSError, subprocess.TimeoutExpired):
-            done = subprocess.run(
+            result = subprocess.run(
                 [
                     program,
                     "-y",
@@ -152,19 +156,19 @@ def encode(pictures: Sequence[Picture], seconds: float, stem: Path) -> Path:
                 input=b"".join(picture.tobytes() for picture in pictures),
                 capture_output=True,
                 check=False,
-                timeout=_TIME_LIMIT,
+                timeout=_ENCODING_TIMEOUT,
             )
-            if done.returncode == 0:
+            if result.returncode == 0:
                 return path
         # Remove what ffmpeg left unfinished.
         path.unlink(missing_ok=True)
-    path, kept = stem.with_suffix(".gif"), pictures[::GIF_EVERY]
+    path, shown = stem.with_suffix(".gif"), pictures[::GIF_STRIDE]
     # One palette from a few frames keeps the file small and prevents flicker.
-    some = kept[:: max(1, len(kept) // _SAMPLES)]
-    palette = Image.fromarray(np.concatenate(some)).quantize(GIF_COLORS)
+    sampled = shown[:: max(1, len(shown) // _SAMPLES)]
+    palette = Image.fromarray(np.concatenate(sampled)).quantize(GIF_COLORS)
     # Dithered colours compress badly: to twice the size and more.
-    plain = Image.Dither.NONE
-    frames = [Image.fromarray(each).quantize(palette=palette, dither=plain) for each in kept]
-    duration = round(1e3 * GIF_EVERY * seconds)
+    no_dither = Image.Dither.NONE
+    frames = [Image.fromarray(frame).quantize(palette=palette, dither=no_dither) for frame in shown]
+    duration = round(1e3 * GIF_STRIDE * seconds)
     frames[0].save(path, save_all=True, append_images=frames[1:], duration=duration, loop=0)
     return path

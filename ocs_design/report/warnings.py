@@ -12,12 +12,12 @@ from ocs_design.device.records.design import OcsDesign
 from ocs_design.device.records.device import OcsRecord
 from ocs_design.export.electrics import controller_rating
 from ocs_design.report.device import has_motor
-from ocs_design.report.flights import flight_remarks, hand_turn, jump_remark
+from ocs_design.report.flights import flight_remarks, hand_turn_remark, jump_remark
 from ocs_design.requirement.bound import AXES, authority
 from ocs_design.requirement.vocabulary import DRAWN
 from ocs_design.sizing.margins import MOTOR_TORQUE
 
-WORTH_TELLING = 0.02
+COUPLING_NOTED = 0.02
 """Coupling is reported only above this share of the momentum that the turn alone needs.
 
 30 of 31 public legged robots couple both axes by less than 0.9 % of their inertia, which amounts to
@@ -27,7 +27,7 @@ this share only at small incidences.
 _SHOWN_LINKS = 2
 """Number of links for which the joint values of a collision with a module are listed."""
 
-_NOT_DESIGNED = "not designed"
+_MUST_BE_DESIGNED = "not designed"
 """Phrase that marks notes about a part that the builder must design."""
 
 
@@ -46,43 +46,44 @@ def all_warnings(design: OcsDesign) -> Iterator[str]:
     if ocs.flywheel.stress_margin is None:
         yield f"stress NOT checked: the strength of {ocs.flywheel.material} is unknown"
     yield from flight_remarks(design)
-    kept = None if design.selection is None else design.selection.kept
+    reserve = None if design.selection is None else design.selection.kept
     # Maneuvers that end off level about an axis that their incidence cannot control.
-    for each in () if kept is None else kept.maneuvers:
-        if kept is not None and each.lost > 1.0 - kept.reliability:
+    for maneuver in () if reserve is None else reserve.maneuvers:
+        if reserve is not None and maneuver.lost > 1.0 - reserve.reliability:
             yield (
-                f"{each.maneuver}: {each.lost:.0%} of sampled robots drift off level about an "
-                "axis that the wheels cannot control at its incidence: specify a larger one or none"
+                f"{maneuver.maneuver}: {maneuver.lost:.0%} of sampled robots drift off level about "
+                "an axis that the wheels cannot control at its incidence: specify a larger one or "
+                "none"
             )
-    if kept is not None and kept.reliability > 1.0 - 1.0 / DRAWN:
+    if reserve is not None and reserve.reliability > 1.0 - 1.0 / DRAWN:
         yield (
-            f"the reserve for {100.0 * kept.reliability:.8g} % of robots is set by the worst of "
+            f"the reserve for {100.0 * reserve.reliability:.8g} % of robots is set by the worst of "
             f"{DRAWN:,} samples, which cannot show more: fly more of them with --certify"
         )
     yield from ocs.warnings
     if ocs.motor.overvoltage:
         yield ocs.motor.overvoltage
     yield from design.robot.warnings[1:]
-    found = () if ocs.mounting is None else ocs.mounting.reachable
-    if found:
-        first, *others = dict.fromkeys(reach.part for reach in found)
+    reachable = () if ocs.mounting is None else ocs.mounting.reachable
+    if reachable:
+        first, *others = dict.fromkeys(reach.part for reach in reachable)
         links = f"{first} and {counted(len(others), 'more link')}" if others else first
         yield f"{links} can hit a module within the joints' limits: restrict their joints"
     yield from _motor_notes(design)
     yield from filter(None, [jump_remark(design)])
     # Parts that the builder must design come before work done by hand.
-    yield from sorted(ocs.fitting, key=lambda note: _NOT_DESIGNED not in note)
+    yield from sorted(ocs.fitting, key=lambda note: _MUST_BE_DESIGNED not in note)
 
 
-def reached_at(ocs: OcsRecord) -> Iterator[str]:
-    """Joint values at which links of the robot hit a module, for the first few links."""
-    found = () if ocs.mounting is None else ocs.mounting.reachable
+def reach_notes(ocs: OcsRecord) -> Iterator[str]:
+    """Joint values at which the first few links of the robot hit a module."""
+    reachable = () if ocs.mounting is None else ocs.mounting.reachable
     named = [
-        f"{each.part} ({', '.join(f'{name} {at:.2f}' for name, at in each.joints.items())})"
-        for each in found[:_SHOWN_LINKS]
+        f"{reach.part} ({', '.join(f'{name} {value:.2f}' for name, value in reach.joints.items())})"
+        for reach in reachable[:_SHOWN_LINKS]
     ]
-    if len(found) > _SHOWN_LINKS:
-        named.append(f"and {len(found) - _SHOWN_LINKS} more, see design.json")
+    if len(reachable) > _SHOWN_LINKS:
+        named.append(f"and {len(reachable) - _SHOWN_LINKS} more, see design.json")
     if named:
         yield f"joint values [rad or m] at which links hit a module: {'; '.join(named)}"
 
@@ -92,11 +93,11 @@ def _motor_notes(design: OcsDesign) -> Iterator[str]:
     motor = design.ocs.motor
     if not has_motor(design):
         return
-    torques = (each.demand for each in design.margins if each.name == MOTOR_TORQUE)
-    asked, starts = max(torques, default=0.0), motor.saturation_torque
-    if starts is not None and asked > starts:
+    torques = (margin.demand for margin in design.margins if margin.name == MOTOR_TORQUE)
+    torque, saturation = max(torques, default=0.0), motor.saturation_torque
+    if saturation is not None and torque > saturation:
         yield (
-            f"{motor.name} saturates above {starts:.3g} N m at the wheel, and {asked:.3g} is "
+            f"{motor.name} saturates above {saturation:.3g} N m at the wheel, and {torque:.3g} is "
             "needed: it takes more current and voltage than its k_t implies, so the margins of "
             "both are optimistic"
         )
@@ -129,13 +130,13 @@ def shortfalls(design: OcsDesign) -> Iterator[str]:
             )
         if specified is not None and demand.spin_inertia > specified:
             yield f"{demand.source}: needs more than the {inertia(specified)} specified"
-        yield from filter(None, [hand_turn(demand, design)])
+        yield from filter(None, [hand_turn_remark(demand, design)])
 
 
 def coupling_notes(design: OcsDesign) -> Iterator[str]:
     """Cost of the coupling of pitch and roll in a robot that is not symmetric."""
     maneuvers = {maneuver.name: maneuver for maneuver in design.requirement.maneuvers}
-    whole = TiltInertia.of(design.ocs.total_inertia)
+    tilt_inertia = TiltInertia.of(design.ocs.total_inertia)
     for demand in design.requirement.demands:
         maneuver = maneuvers.get(demand.source)
         if maneuver is None or design.ocs.axes != PAIR:
@@ -145,22 +146,22 @@ def coupling_notes(design: OcsDesign) -> Iterator[str]:
         if roll == pitch:
             continue
         axis = int(pitch)
-        shares, about, across = authority(demand.incidence), AXES[axis], AXES[1 - axis]
+        shares, axis_name, other_name = authority(demand.incidence), AXES[axis], AXES[1 - axis]
         if shares[1 - axis] <= OUT_OF_REACH:
-            drift = float(whole.drift[1 - axis])
-            if drift > WORTH_TELLING:
+            drift = float(tilt_inertia.drift[1 - axis])
+            if drift > COUPLING_NOTED:
                 yield (
                     f"{demand.source}: at {degrees(demand.incidence)} the wheels cannot turn the "
-                    f"robot in {across}. Robot and device are not symmetric, and drift by "
-                    f"{drift:.2f} deg of {across} per degree of {about}, out and back in a full "
-                    "turn"
+                    f"robot in {other_name}. Robot and device are not symmetric, and drift by "
+                    f"{drift:.2f} deg of {other_name} per degree of {axis_name}, out and back in a "
+                    "full turn"
                 )
             continue
-        asked = np.array([demand.roll_momentum, demand.pitch_momentum]) / shares
-        more = asked[1 - axis] / asked[axis]
-        if more > WORTH_TELLING:
+        wheel_momenta = np.array([demand.roll_momentum, demand.pitch_momentum]) / shares
+        increase = wheel_momenta[1 - axis] / wheel_momenta[axis]
+        if increase > COUPLING_NOTED:
             yield (
-                f"{demand.source}: robot and device are not symmetric: to {about} alone also takes "
-                f"momentum about {across}, {more:.0%} more from the busier wheel at "
+                f"{demand.source}: robot and device are not symmetric: to {axis_name} alone also "
+                f"takes momentum about {other_name}, {increase:.0%} more from the busier wheel at "
                 f"{degrees(demand.incidence)}; the device is sized for it"
             )

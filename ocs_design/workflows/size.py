@@ -24,7 +24,7 @@ from ocs_design.report.html.notebook import as_html
 from ocs_design.report.html.page import write_report
 from ocs_design.report.story import story_in
 from ocs_design.report.text.console import Steps, Tell
-from ocs_design.report.video import film_or_tell
+from ocs_design.report.video import film_if_possible
 from ocs_design.requirement.froude import standing_height
 from ocs_design.requirement.reading import specification_of
 from ocs_design.requirement.resolving import read_specified_robot
@@ -219,7 +219,7 @@ def _write_flights(placed: Placed, proof: Proof, folder: Path, steps: Steps) -> 
     if not placed.specification.validation.video:
         return ()
     with steps.step("film the flights"):
-        return film_or_tell(
+        return film_if_possible(
             placed.robot,
             placed.designed.device,
             placed.resolved.requirement.maneuvers,

@@ -4,7 +4,7 @@ import trimesh
 
 from ocs_design.common.frames import Placement
 from ocs_design.export.snapshot import HEIGHT, WIDTH
-from ocs_design.report.bodies import ShownBody, Surface, still
+from ocs_design.report.bodies import ShownBody, Surface, still_picture
 
 RED, BLUE = (1.0, 0.0, 0.0, 1.0), (0.0, 0.0, 1.0, 1.0)
 
@@ -19,7 +19,7 @@ def drawn(image):
 
 
 def test_a_ball_is_a_disc_that_fills_the_picture():
-    image = still([body(trimesh.creation.icosphere(subdivisions=4), RED)])
+    image = still_picture([body(trimesh.creation.icosphere(subdivisions=4), RED)])
     assert image.shape == (HEIGHT, WIDTH, 3)
     across, down = (np.ptp(np.flatnonzero(drawn(image).any(axis=axis))) + 1 for axis in (0, 1))
     assert across == pytest.approx(down, abs=2)
@@ -31,12 +31,12 @@ def test_what_is_in_front_hides_what_is_behind():
     ball = trimesh.creation.icosphere(subdivisions=3, radius=0.5)
     towards = np.array([np.cos(0.38) * np.cos(-0.65), np.cos(0.38) * np.sin(-0.65), np.sin(0.38)])
     for near, far in ((RED, BLUE), (BLUE, RED)):
-        image = still([body(ball, far), body(ball, near, at=2.0 * towards)])
+        image = still_picture([body(ball, far), body(ball, near, at=2.0 * towards)])
         middle = image[HEIGHT // 2, WIDTH // 2].astype(int)
         assert np.argmax(middle) == np.argmax(near[:3])
 
 
 def test_glass_is_left_out_and_nothing_is_white():
     glass = body(trimesh.creation.box(), (0.0, 0.0, 0.0, 0.3))
-    assert not drawn(still([glass])).any()
-    assert not drawn(still([])).any()
+    assert not drawn(still_picture([glass])).any()
+    assert not drawn(still_picture([])).any()

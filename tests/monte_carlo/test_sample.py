@@ -9,7 +9,7 @@ from wheels import driven_device, paper_device
 
 from ocs_design.device.layout import PAIR
 from ocs_design.monte_carlo.uncertainty import KEYS, Sample, Uncertainty, quantities
-from ocs_design.report.device import drawn_facts
+from ocs_design.report.device import distribution_facts
 from ocs_design.requirement.uncertainty import Normal, UncertaintySection
 
 NAMES = quantities(PAIR)
@@ -94,6 +94,6 @@ def test_a_drive_that_stops_is_drawn_last_and_changes_nothing_else(solo12):
     assert set(which) == {1.0, 2.0}
     assert stats.kstest(when, "uniform").pvalue > 0.01
     assert spread.written() != stops.written()
-    told = dict(drawn_facts(stops.written()))
+    told = dict(distribution_facts(stops.written()))
     assert told.pop("stopped drive") == "any one, at any instant, known after 0.02"
-    assert told == dict(drawn_facts(spread.written()))
+    assert told == dict(distribution_facts(spread.written()))

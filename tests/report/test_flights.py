@@ -94,7 +94,7 @@ def test_one_note_about_several_flights_is_told_once():
 
 def test_a_row_is_named_by_its_scenario_or_by_the_device_alone():
     runs = [run(), run(ocs=False)]
-    many, one = flight_table(runs), flight_table(runs, of_one=True)
+    many, one = flight_table(runs), flight_table(runs, one_scenario=True)
     assert [row[0] for row in many.rows] == ["kerb", "  without"]
     assert [row[0] for row in one.rows] == ["with", "without"]
     assert [table.columns[0].name for table in (many, one)] == ["scenario", "device"]

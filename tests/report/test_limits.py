@@ -11,17 +11,17 @@ from ocs_design.common.wording import quantity
 from ocs_design.device.records.device import Margin
 from ocs_design.device.records.selection import Alternative
 from ocs_design.report.limits import (
-    MEANING,
-    alternatives_note,
+    LIMIT_MEANINGS,
+    active_limit_names,
     alternatives_table,
-    assumed,
+    assumption_rows,
     demand_table,
-    heat,
-    holding_up,
-    lighter,
     margin_notes,
     margin_table,
-    tightest,
+    pause_remark,
+    saving_changes,
+    useless_changes_note,
+    utilizations,
 )
 from ocs_design.report.table import plain
 from ocs_design.report.text.layout import items, show
@@ -38,7 +38,7 @@ def test_every_limit_that_no_key_sets_is_explained():
     """Those that a module's figures can be bound by, as the sizing names them."""
     constants = vars(lightest_module).items()
     names = {value for name, value in constants if name.isupper() and isinstance(value, str)}
-    assert names == set(MEANING)
+    assert names == set(LIMIT_MEANINGS)
 
 
 def test_each_margin_is_a_row_and_each_note_a_line():
@@ -67,7 +67,7 @@ def test_demands_are_told_in_the_units_of_the_bench():
 def test_limits_that_are_no_keys_are_named_in_words():
     found = design()
     bound = replace(found, sizing=replace(found.sizing, binding=("r_max", "hoop_stress", "hub")))
-    assert holding_up(bound) == ["r_max", "hoop stress", "hub"]
+    assert active_limit_names(bound) == ["r_max", "hoop stress", "hub"]
 
 
 def test_units_of_the_bench():
@@ -97,8 +97,8 @@ def test_what_is_used_most_comes_first_and_equals_stand_together():
     )
     found = replace(design(), margins=margins)
     # What a pause cools is no limit that is exceeded.
-    assert heat(found) == "240% rms in drop (continuous rating 100%), a pause cools it"
-    assert tightest(found) == (
+    assert pause_remark(found) == "240% rms in drop (continuous rating 100%), a pause cools it"
+    assert utilizations(found) == (
         ("100%", "torque and voltage (flip)"),
         (" 68%", "power (flip)"),
         (" 50%", "height"),
@@ -107,7 +107,7 @@ def test_what_is_used_most_comes_first_and_equals_stand_together():
 
 def test_only_what_one_would_change_is_listed_as_assumed():
     said = ("Maneuvers: the paper's three.", "drop: falls from 1 m.", "Supply: 24 V.", "Edges: x.")
-    assert assumed(said) == (("drop", "falls from 1 m"), ("supply", "24 V"))
+    assert assumption_rows(said) == (("drop", "falls from 1 m"), ("supply", "24 V"))
 
 
 def test_changes_that_save_come_by_what_they_save():
@@ -123,11 +123,11 @@ def test_changes_that_save_come_by_what_they_save():
         )
     )
     told = replace(found, alternatives=changes)
-    assert lighter(told) == (
+    assert saving_changes(told) == (
         ("-20.0 g", "any material; titanium"),
         ("-10.0 g", "more time; Other"),
     )
     assert [row[0] for row in alternatives_table(told).rows] == [
         "more time", "no device", "any material"
     ]  # fmt: skip
-    assert alternatives_note(told) == "These save nothing: nothing."
+    assert useless_changes_note(told) == "These save nothing: nothing."

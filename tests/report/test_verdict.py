@@ -71,14 +71,17 @@ VERDICTS = {
 @pytest.mark.parametrize(("runs", "expected"), VERDICTS.values(), ids=VERDICTS)
 def test_the_line_and_what_matters_most(runs, expected):
     line = verdict(*runs)
-    assert (line.text.removeprefix("buildable  ·  "), line.tone, line.matter) == expected
+    assert (line.text.removeprefix("buildable  ·  "), line.tone, line.main_finding) == expected
     assert line.text.startswith("buildable")
 
 
 def test_what_cannot_be_built_says_why_and_what_would_do():
     line = verdict(run(passed=False, reason="falls"), yes=False, points=(POINT,))
     assert line.text.startswith("NOT buildable")
-    assert (line.tone, line.matter) == (Tone.FAIL, "no source gives the threads; choose another")
+    assert (line.tone, line.main_finding) == (
+        Tone.FAIL,
+        "no source gives the threads; choose another",
+    )
 
 
 def test_a_biped_that_lands_level_and_falls_is_told():
@@ -86,14 +89,14 @@ def test_a_biped_that_lands_level_and_falls_is_told():
     line = verdict(*(run(name, stands=False) for name in ("drop", "flip")))
     assert line.text == "buildable  ·  level 2 of 2  ·  stands 0 of 2"
     assert line.tone is Tone.OPEN
-    assert line.matter.startswith("drop, flip: the robot lands level and then falls")
+    assert line.main_finding.startswith("drop, flip: the robot lands level and then falls")
 
 
 def test_a_robot_that_ends_leaning_is_not_said_to_stand_like_the_others():
     line = verdict(run("flip"), replace(run(), metrics={"final_pitch": radians(18.3)}))
     assert line.text == "buildable  ·  level 2 of 2  ·  stands 2 of 2, 1 leaning"
     assert line.tone is Tone.OPEN
-    assert "ends leaning: drop 18.3 deg" in line.matter
+    assert "ends leaning: drop 18.3 deg" in line.main_finding
 
 
 def test_a_flight_that_fails_is_minded_though_the_verdict_names_one_of_its_letters():

@@ -17,7 +17,7 @@ from ocs_design.common.errors import MissingToolError
 from ocs_design.device.bodies import PLATE, device_bodies
 from ocs_design.export.film import Take, film_model, render_takes
 from ocs_design.report import video
-from ocs_design.report.video import BAD, GOOD, captioned, encode, film_or_tell
+from ocs_design.report.video import BAD, GOOD, captioned, encode, film_if_possible
 from ocs_design.requirement.turns import Drop
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.mujoco_bodies import HIDDEN_GROUP
@@ -151,7 +151,7 @@ def test_who_is_done_first_waits_for_the_other(tmp_path, monkeypatch):
 
     monkeypatch.setattr(video, "encode", keep)
     monkeypatch.setattr(video, "render_takes", blank)
-    assert film_or_tell(ROBOT, DEVICE, [DROP], runs, tmp_path) == ()
+    assert film_if_possible(ROBOT, DEVICE, [DROP], runs, tmp_path) == ()
     assert len(made["pictures"]) == 5
     assert made["pictures"][0].shape == (440, 960, 3)
     assert (made["seconds"], made["stem"]) == (pytest.approx(0.03), tmp_path / "drop")
@@ -162,7 +162,7 @@ def test_who_is_done_first_waits_for_the_other(tmp_path, monkeypatch):
 
 def test_without_opengl_the_cure_is_told(tmp_path, monkeypatch):
     monkeypatch.setenv("MUJOCO_GL", "none such")
-    (told,) = film_or_tell(ROBOT, DEVICE, [DROP], [flown(True, 3)], tmp_path)
+    (told,) = film_if_possible(ROBOT, DEVICE, [DROP], [flown(True, 3)], tmp_path)
     assert told.startswith("no video, because none such:")
     assert "apt install" in told
     assert not list(tmp_path.iterdir())
@@ -170,5 +170,5 @@ def test_without_opengl_the_cure_is_told(tmp_path, monkeypatch):
 
 def test_a_gif_is_told_of(tmp_path, monkeypatch):
     monkeypatch.setattr(video, "film_flights", lambda *given: (tmp_path / "drop.gif",))
-    (told,) = film_or_tell(ROBOT, DEVICE, [], [], tmp_path)
+    (told,) = film_if_possible(ROBOT, DEVICE, [], [], tmp_path)
     assert "pip install 'ocs-design[video]'" in told

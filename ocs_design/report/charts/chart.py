@@ -19,7 +19,7 @@ _ANGLES = (15.0, 30.0, 45.0, 90.0, 180.0, 360.0)
 
 _MOST_DECADES = 6
 
-_BEYOND_MEASURE = 1e100
+_LARGEST_DRAWN = 1e100
 """Largest value that an axis must include: a diverged run may end with NaN or huge values."""
 
 _FLAT = 1e-6
@@ -52,7 +52,7 @@ class Axis:
         cls, label: str, unit: str, values: Iterable[float], *, room: float = 0.06
     ) -> "Axis":
         """Axis that spans all values that can be drawn, with room at both ends."""
-        found = np.array([value for value in values if abs(value) < _BEYOND_MEASURE])
+        found = np.array([value for value in values if abs(value) < _LARGEST_DRAWN])
         low, high = (float(found.min()), float(found.max())) if found.size else (0.0, 1.0)
         spread = high - low
         span = spread if spread > _FLAT * abs(high) else abs(high) or 1.0

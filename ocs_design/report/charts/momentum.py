@@ -34,7 +34,7 @@ _SPEEDS = (0.25, 0.5, 1.0, 2.0)
 
 _SAMPLES = 160
 
-_HARDLY = 0.02
+_NEGLIGIBLE_MOMENTUM = 0.02
 """Share of the largest momentum about an axis below which a maneuver is left out."""
 
 
@@ -198,7 +198,7 @@ def bound_charts(story: Story) -> Iterator[Chart]:
         for each in found:
             momentum = each.largest(axis)
             share = float(np.abs(design.ocs.axes.axes(each.incidence)[axis]).sum())
-            if momentum > _HARDLY * max(most, each.largest(1 - axis)) and share > 0.0:
+            if momentum > _NEGLIGIBLE_MOMENTUM * max(most, each.largest(1 - axis)) and share > 0.0:
                 change = momentum / design.ocs.total_inertia[axis][axis]
                 asked.append((each.source, change, share * design.ocs.spin_inertia))
         if not asked:

@@ -9,7 +9,7 @@ from ocs_design.common.wording import grams
 from ocs_design.device.answers import Front, Validated
 from ocs_design.device.records.design import OcsDesign
 from ocs_design.export.raster import png_bytes
-from ocs_design.report.bodies import read_bodies, still
+from ocs_design.report.bodies import read_bodies, still_picture
 from ocs_design.report.charts.front import front_chart
 from ocs_design.report.charts.momentum import ellipsoid_chart
 from ocs_design.report.charts.svg import svg_file
@@ -37,7 +37,7 @@ def as_html(found: OcsDesign | Front | Validated, folder: Path | None = None) ->
         if glb is None or not glb.is_file():
             shown = _image("svg+xml", svg_file(ellipsoid_chart(found)), "wheel axes and inertia")
         else:
-            picture = png_bytes(still(read_bodies(glb.read_bytes())))
+            picture = png_bytes(still_picture(read_bodies(glb.read_bytes())))
             shown = _image("png", picture, f"{found.robot.name} with its device")
         return element(
             "div",
@@ -82,5 +82,5 @@ def _image(kind: str, content: bytes, name: str) -> Markup:
 
 
 def _head(title: str, line: Headline) -> Markup:
-    matter = (void("br"), line.matter) if line.matter else ()
-    return element("p", element("strong", title), void("br"), line.text, *matter)
+    main_finding = (void("br"), line.main_finding) if line.main_finding else ()
+    return element("p", element("strong", title), void("br"), line.text, *main_finding)

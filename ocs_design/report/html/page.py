@@ -15,7 +15,7 @@ from ocs_design.export.folder import REPORT_FILE
 from ocs_design.export.templates import template_text
 from ocs_design.report.charts.figures import scenario_charts
 from ocs_design.report.device import has_motor, layout_text, share_of_robot
-from ocs_design.report.flights import turned_by_hand
+from ocs_design.report.flights import hand_turn_remarks
 from ocs_design.report.html import sections
 from ocs_design.report.html.decimation import decimated
 from ocs_design.report.html.elements import Markup, data, element, joined
@@ -99,8 +99,12 @@ def _body(story: Story) -> Iterator[Markup]:
                 *(element("strong", part.text, class_=part.tone) for part in line.parts),
                 class_="line",
             ),
-            element("span", line.matter) if line.matter else "",
-            *(element("span", each) for each in turned_by_hand(design) if each != line.matter),
+            element("span", line.main_finding) if line.main_finding else "",
+            *(
+                element("span", each)
+                for each in hand_turn_remarks(design)
+                if each != line.main_finding
+            ),
             class_=f"verdict {line.tone}",
         ),
         _tiles(design),

@@ -27,7 +27,7 @@ from ocs_design.report.charts.chart import Chart
 from ocs_design.report.charts.flights import distribution_charts, drive_charts
 from ocs_design.report.charts.front import reserve_charts
 from ocs_design.report.charts.momentum import bound_charts, incidence_charts
-from ocs_design.report.device import device_facts, drawn_facts, robot_facts
+from ocs_design.report.device import device_facts, distribution_facts, robot_facts
 from ocs_design.report.html.elements import (
     Markup,
     details,
@@ -74,7 +74,7 @@ def robot_section(story: Story, view: Markup) -> Markup:
             class_="halves",
         ),
         table("What keeps it from being built", limits.open_points(design)) if points else "",
-        items((*minded, *warnings.reached_at(design.ocs)), look="warnings"),
+        items((*minded, *warnings.reach_notes(design.ocs)), look="warnings"),
     )
 
 
@@ -111,7 +111,7 @@ def limits_section(story: Story) -> Markup:
     """Active limits, and the mass that moving each of them saves."""
     design = story.design
     names, meaning = limits.active_limits(design)
-    owed = limits.owed_to(design)
+    owed = limits.driving_maneuver_text(design)
     otherwise = limits.alternatives_table(design)
     drive = []
     if design.selection is not None:
@@ -138,7 +138,7 @@ def limits_section(story: Story) -> Markup:
         note(limits.saving_notes(design)),
         *drive,
         table("Lighter alternatives", otherwise) if otherwise.rows else "",
-        note(limits.alternatives_note(design)),
+        note(limits.useless_changes_note(design)),
         table(f"Trade-offs to save {grams(design.lighter.by)}", limits.lighter_table(design))
         if design.lighter is not None
         else "",
@@ -208,7 +208,7 @@ def maneuvers_section(
             element(
                 "article",
                 element("h3", name, " ", again if number else ""),
-                table(f"{name}: outcome", flights.flight_table(runs, of_one=True)),
+                table(f"{name}: outcome", flights.flight_table(runs, one_scenario=True)),
                 *(note(flights.run_sentence(run)) for run in runs),
                 figures(charts[name], flight=number) if charts.get(name) else "",
             )
@@ -220,7 +220,7 @@ def maneuvers_section(
                 "article",
                 element("h3", "Failure of a drive in flight"),
                 table(flights.SURVIVAL_TITLE, flights.survival_table(survival)),
-                *map(note, flights.survival_words(story.design)),
+                *map(note, flights.survival_sentences(story.design)),
             )
         )
     return section("maneuvers", "Maneuvers, with the device and without", *parts)
@@ -246,7 +246,7 @@ def monte_carlo_section(story: Story) -> Markup:
         table("How often they pass", monte_carlo.success_table(record)),
         *(element("p", f"{s.scenario}: {s.advice}.") for s in record.scenarios if s.advice),
         figures(distribution_charts(record, story.pivots)),
-        details("Distributions sampled", facts(drawn_facts(record.reality))),
+        details("Distributions sampled", facts(distribution_facts(record.reality))),
     )
 
 
@@ -328,7 +328,9 @@ def record_section(story: Story) -> Markup:
         "Assumptions, sources and provenance",
         element("h3", "Assumed, because nothing else was specified"),
         assumed or element("p", "Nothing: everything was specified."),
-        details("Distributions that samples are drawn from", facts(drawn_facts(design.reality))),
+        details(
+            "Distributions that samples are drawn from", facts(distribution_facts(design.reality))
+        ),
         *((element("h3", "Warnings about the robot's file"), read) if read else ()),
         element("h3", "Sources"),
         facts(sources),

@@ -17,7 +17,7 @@ from ocs_design.device.bodies import PREFIX, flywheels_among
 from ocs_design.export.raster import png_bytes
 from ocs_design.export.snapshot import HEIGHT, WIDTH
 from ocs_design.export.templates import fill
-from ocs_design.report.bodies import ShownBody, still
+from ocs_design.report.bodies import ShownBody, still_picture
 from ocs_design.report.html.elements import Markup, data, element, joined
 from ocs_design.report.story import RecordedFlight, Story
 from ocs_design.robot.mujoco_bodies import quaternion
@@ -31,7 +31,7 @@ def view(story: Story, bodies: Sequence[ShownBody], scenarios: Sequence[str]) ->
     options = (element("option", name, value=str(i)) for i, name in enumerate(scenarios))
     replay = fill("report/replay.html", {"scenarios": joined(options)}) if scenarios else ""
     values = {
-        "picture": base64.b64encode(png_bytes(still(bodies))).decode("ascii"),
+        "picture": base64.b64encode(png_bytes(still_picture(bodies))).decode("ascii"),
         "name": escape(f"{story.design.robot.name} with its device, oblique view from the front"),
         "width": str(WIDTH),
         "height": str(HEIGHT),

@@ -123,7 +123,7 @@ def print_motors(console: Console, found: Sequence[Motor]) -> None:
             _figure(speed_limit(motor), "rpm", ",.0f"),
             _figure(motor.peak_torque, "N m", ".3g") + BASIS_MARK.get(motor.peak_basis, " "),
             _figure(motor.torque_constant, "mN m", ".3g"),
-            _shortly(build_gaps(motor)),
+            _first_gap(build_gaps(motor)),
         )
         for motor in sorted(found, key=lambda motor: (motor.mass or math.inf, motor.name))
     )
@@ -152,7 +152,7 @@ def print_motors(console: Console, found: Sequence[Motor]) -> None:
         )
 
 
-def _shortly(gaps: Sequence[str]) -> str:
+def _first_gap(gaps: Sequence[str]) -> str:
     """The first gap in a word or two, and the number of further gaps; a dash if there is none.
 
     These words are the start of the gap, up to a comma, a colon or `of the`.

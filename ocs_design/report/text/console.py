@@ -34,10 +34,10 @@ from rich.text import Text
 
 NARROWEST = 60
 WIDEST = 110
-UNBROKEN = 10_000
+PIPE_WIDTH = 10_000
 """Columns of a pipe, whose reader breaks lines itself. The variable COLUMNS overrides it."""
 
-_LAST_SPACES = re.compile("(?<! ) +(?=\n)")
+_TRAILING_SPACES = re.compile("(?<! ) +(?=\n)")
 """Trailing spaces; without the lookbehind each of a pipe's 10,000 would be tried as the first."""
 
 _CONTROL = [*range(0x20), *range(0x7F, 0xA0), *range(0x202A, 0x202F), *range(0x2066, 0x206A)]
@@ -51,12 +51,12 @@ They could come in with names from robot files, catalogues and `design.json`.
 def open_page(console: Console, file: Path) -> None:
     """Open a page in the browser, or print its path if there is no screen or no browser."""
     # Without a screen Python would start a text browser in the terminal.
-    drawn = not sys.platform.startswith("linux") or any(map(os.environ.get, _SCREENS))
+    drawn = not sys.platform.startswith("linux") or any(map(os.environ.get, _SCREEN_VARIABLES))
     if not (drawn and webbrowser.open(file.resolve().as_uri())):
         console.print(f"no browser to open {file.resolve()}", soft_wrap=True)
 
 
-_SCREENS = ("DISPLAY", "WAYLAND_DISPLAY", "BROWSER")
+_SCREEN_VARIABLES = ("DISPLAY", "WAYLAND_DISPLAY", "BROWSER")
 """Variables of which at least one is set if a browser can be opened."""
 
 
@@ -86,7 +86,7 @@ class _Clean:
                 yield segment
                 continue
             # Spaces are printed only when something follows them on their line.
-            text = _LAST_SPACES.sub("", spaces + cleaned(segment.text))
+            text = _TRAILING_SPACES.sub("", spaces + cleaned(segment.text))
             shown = text.rstrip(" ")
             spaces = text[len(shown) :]
             yield Segment(shown, segment.style)
@@ -107,7 +107,7 @@ def make_console(*, color: bool = True, stderr: bool = False) -> Console:
     if console.is_terminal or "COLUMNS" in os.environ:
         console.width = min(max(console.width, NARROWEST), WIDEST)
     else:
-        console.width = UNBROKEN
+        console.width = PIPE_WIDTH
     console.push_render_hook(CleanHook())
     return console
 
@@ -135,7 +135,7 @@ class Steps:
     On a terminal a spinner or bar moves; in a pipe each finished step is one plain line.
     """
 
-    _all_doubts = ": `ocs-design inspect`"
+    _all_warnings = ": `ocs-design inspect`"
 
     def __init__(self, console: Console | None = None, *, quiet: bool = False) -> None:
         """Progress on a console; None: nothing is printed."""
@@ -148,7 +148,7 @@ class Steps:
         if isinstance(progress, Steps):
             return progress
         if progress is not None:
-            return _ToldSteps(progress)
+            return _CallbackSteps(progress)
         # Only a notebook has a kernel; IPython on a terminal has none.
         shell = getattr(sys.modules.get("IPython"), "get_ipython", lambda: None)()
         return cls() if getattr(shell, "kernel", None) is None else _NotebookSteps()
@@ -165,10 +165,10 @@ class Steps:
 
     def doubt(self, warnings: Sequence[str]) -> None:
         """Report warnings about the input before work on it starts."""
-        for each in warnings[:MOST_DOUBTS]:
+        for each in warnings[:WARNINGS_SHOWN]:
             self._keep(Text(f" warning  {each}", style="yellow"))
-        if len(warnings) > MOST_DOUBTS:
-            self._keep(Text(f"          {len(warnings) - MOST_DOUBTS} more{self._all_doubts}"))
+        if len(warnings) > WARNINGS_SHOWN:
+            self._keep(Text(f"          {len(warnings) - WARNINGS_SHOWN} more{self._all_warnings}"))
 
     @contextmanager
     def _running(self, label: str) -> Iterator["RunningStep"]:
@@ -199,7 +199,7 @@ class Steps:
 _WIDE = 80
 """Number of columns from which there is room for the remaining time."""
 
-MOST_DOUBTS = 3
+WARNINGS_SHOWN = 3
 """Number of warnings shown before the search; `inspect` shows all."""
 
 
@@ -220,7 +220,7 @@ Tell: TypeAlias = Callable[[str, float], None]
 """Callback that receives the running step and the fraction of it that is done, 0..1."""
 
 
-class _ToldSteps(Steps):
+class _CallbackSteps(Steps):
     """Progress reported to a callback."""
 
     def __init__(self, tell: Tell) -> None:
@@ -238,7 +238,7 @@ class _ToldSteps(Steps):
 class _NotebookSteps(Steps):
     """Progress below a notebook's cell: a line for each step, a bar for the one that runs."""
 
-    _all_doubts = " in `robot.warnings`"
+    _all_warnings = " in `robot.warnings`"
 
     def __init__(self) -> None:
         super().__init__()
@@ -254,7 +254,7 @@ class _NotebookSteps(Steps):
 
         def moved(completed: float) -> None:
             now = time.perf_counter()
-            if now - self._shown_at > NOTEBOOK_REST:
+            if now - self._shown_at > NOTEBOOK_INTERVAL:
                 self._shown_at = now
                 self._show(f"{now - start:6.2f} s  {label}  {'█' * round(24 * completed):<24}")
 
@@ -269,7 +269,7 @@ class _NotebookSteps(Steps):
         self._handle.update({"text/plain": cleaned("\n".join([*self._lines, *running]))}, raw=True)
 
 
-NOTEBOOK_REST = 0.5
+NOTEBOOK_INTERVAL = 0.5
 """Minimum time between updates of a bar in a notebook, each a message to the browser [s]."""
 
 

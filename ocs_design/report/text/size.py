@@ -18,7 +18,7 @@ from ocs_design.report.device import (
     criterion_table,
     device_facts,
     device_title,
-    drawn_facts,
+    distribution_facts,
     first_facts,
     share_of_robot,
 )
@@ -46,18 +46,18 @@ def print_design(console: Console, design: OcsDesign) -> None:
     minded = [each for each in warnings.all_warnings(design) if each not in design.robot.warnings]
     if minded:
         heading(console, "Warnings")
-        items(console, (*minded, *warnings.reached_at(design.ocs)), style="yellow")
+        items(console, (*minded, *warnings.reach_notes(design.ocs)), style="yellow")
     print_robot(console, design.robot)
     heading(console, f"Requirement: wheels of at most {rpm(design.requirement.wheel_speed_max)}")
     show(console, limits.demand_table(design))
-    note(console, limits.TURNS if design.selection is None else limits.DRIVEN)
+    note(console, limits.NOTE_WITHOUT_MOTORS if design.selection is None else limits.NOTE_ON_DRIVE)
     items(console, warnings.coupling_notes(design))
     if design.requirement.assumptions:
         heading(console, "Assumed, because nothing else was specified")
         items(console, design.requirement.assumptions)
     if design.reality:
         heading(console, "Distributions that `validate --samples` draws from")
-        facts(console, drawn_facts(design.reality))
+        facts(console, distribution_facts(design.reality))
     if design.selection is not None:
         print_selection(console, design.selection, design.requirement.maneuvers)
     heading(console, device_title(design))
@@ -68,7 +68,7 @@ def print_design(console: Console, design: OcsDesign) -> None:
     heading(console, f"Active limits: {names}")
     if meaning:
         note(console, meaning)
-    owed = limits.owed_to(design)
+    owed = limits.driving_maneuver_text(design)
     if owed:
         note(console, f"The mass is driven by {owed}.")
     show(console, limits.saving_table(design))
@@ -96,9 +96,9 @@ def print_alternatives(console: Console, design: OcsDesign) -> None:
         found = limits.alternatives_table(design)
         if found.rows:
             show(console, found)
-        vain = limits.alternatives_note(design)
-        if vain:
-            note(console, vain)
+        useless = limits.useless_changes_note(design)
+        if useless:
+            note(console, useless)
     print_lighter(console, design)
 
 
@@ -149,7 +149,7 @@ def print_outcome(console: Console, design: OcsDesign, folder: Path) -> None:
     print_headline(console, headline(design))
 
 
-MOST_MARGINS, MOST_MINDED, MOST_CHANGES = 4, 3, 3
+MOST_MARGINS, MOST_WARNINGS, MOST_CHANGES = 4, 3, 3
 
 NARROWEST_PLOT, WIDEST_PLOT = 8, 20
 BESIDE_PLOTS = 64
@@ -167,28 +167,28 @@ def print_summary(console: Console, design: OcsDesign, runs: Sequence[Run], fold
     robot = design.robot
     rows = [("robot", f"{robot.name}, {robot.mass:.4g} kg, posture {robot.posture_name}")]
     rows += first_facts(design)
-    owed = limits.owed_to(design)
-    why = [listed(limits.holding_up(design)), f"driven by {owed}" if owed else ""]
+    owed = limits.driving_maneuver_text(design)
+    why = [listed(limits.active_limit_names(design)), f"driven by {owed}" if owed else ""]
     if any(why):
         rows.append(("set by", "; ".join(filter(None, why))))
-    for index, (share, names) in enumerate(limits.tightest(design)[:MOST_MARGINS]):
+    for index, (share, names) in enumerate(limits.utilizations(design)[:MOST_MARGINS]):
         rows.append(("" if index else "used", f"{share} {names}"))
-    if limits.heat(design):
-        rows.append(("heat", limits.heat(design)))
+    if limits.pause_remark(design):
+        rows.append(("heat", limits.pause_remark(design)))
     if design.survival is not None:
-        rows.append(("survives", "; ".join(flights.survival_words(design))))
+        rows.append(("survives", "; ".join(flights.survival_sentences(design))))
     facts(console, rows)
     if runs:
         _print_flights(console, design, runs)
     # Already said by the verdict.
     flown = (run for run in design.validation if run.ocs and run.scenario == line.flight)
-    shown = {line.matter, *(flights.run_sentence(run, with_note=False) for run in flown)}
+    shown = {line.main_finding, *(flights.run_sentence(run, with_note=False) for run in flown)}
     minded = [each for each in warnings.all_warnings(design) if each not in shown]
     if minded:
         # The number of further warnings would not help; the most important ones are here.
-        heading(console, "Warnings (-v: all)" if len(minded) > MOST_MINDED else "Warnings")
-        items(console, minded[:MOST_MINDED], style="yellow")
-    changes = limits.lighter(design)[:MOST_CHANGES]
+        heading(console, "Warnings (-v: all)" if len(minded) > MOST_WARNINGS else "Warnings")
+        items(console, minded[:MOST_WARNINGS], style="yellow")
+    changes = limits.saving_changes(design)[:MOST_CHANGES]
     if changes:
         heading(console, "What one change would save")
         facts(console, changes)
@@ -255,7 +255,7 @@ def print_lighter(console: Console, design: OcsDesign) -> None:
 
 def print_assumed(console: Console, assumptions: Sequence[str]) -> None:
     """Print the values assumed where none was specified, as a short list."""
-    rows = limits.assumed(assumptions)
+    rows = limits.assumption_rows(assumptions)
     if rows:
         heading(console, "Assumed; `--help` has the option for each")
         facts(console, rows)

@@ -34,8 +34,10 @@ def print_headline(console: Console, line: Headline, *more: Text) -> None:
     """Print the verdict and `more` in one line, and below it what matters most."""
     parts = (Text(part.text, style=f"bold {STYLES[part.tone]}") for part in line.parts)
     console.print(Text(SEPARATOR).join(parts), *more)
-    if line.matter:
-        console.print(Text(line.matter, style="" if line.tone is Tone.PASS else STYLES[line.tone]))
+    if line.main_finding:
+        console.print(
+            Text(line.main_finding, style="" if line.tone is Tone.PASS else STYLES[line.tone])
+        )
 
 
 def print_validated(

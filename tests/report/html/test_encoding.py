@@ -13,7 +13,7 @@ from wheels import paper_device
 from ocs_design.common.frames import Placement
 from ocs_design.report.bodies import ShownBody, Surface
 from ocs_design.report.html.view import Blob, encoded_scene
-from ocs_design.report.story import flights_of
+from ocs_design.report.story import recorded_flights
 from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.robot.reader import read_robot
 from ocs_design.simulation.scenario import Flights, Options, run_scenarios
@@ -28,7 +28,7 @@ def flights():
     solo12 = read_robot(SOLO12)
     drop = default_maneuvers(solo12)[1]
     runs = run_scenarios(Flights(solo12, paper_device(), [drop], options=Options(pose_rate=20.0)))
-    return flights_of([*map(record_run, runs)], runs)
+    return recorded_flights([*map(record_run, runs)], runs)
 
 
 def shown(name):
