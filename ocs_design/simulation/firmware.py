@@ -339,9 +339,9 @@ def _margin_table(worlds: Mapping[str, World], period: float) -> str:
     return "".join(rows)
 
 
-_DELAY = "The\ndesign was sized for {:.3g} to {:.3g} ms of it (`torque_delay` of its `[reality]`)."
+_DELAY = "This\ndesign was sized for {:.3g} to {:.3g} ms (`torque_delay` of its `[reality]`)."
 _LEFT = "This design does not brake the wheels in stance; `size --desaturate` does."
-_BRAKED = "After a while on the ground it brakes the wheels too (constants `brake_...`)."
+_BRAKED = "After some time on the ground it also brakes the wheels (constants `brake_...`)."
 
 
 def _order(worlds: Mapping[str, World], joints: Sequence[str]) -> str:

@@ -1,4 +1,4 @@
-/* Reads states from standard input, one a line, and prints the torques, as many digits as there are:
+/* Reads states from standard input, one per line, and prints the torques with all digits:
  *
  *     maneuver time ground_time attitude[4] rate[3] wheel_speed[OCS_WHEELS]
  *
@@ -33,7 +33,7 @@ int main(int argc, char **argv) {
         double sum = 0.0;
         clock_t begin = clock();
         for (k = 0; k < steps; k++) {
-            state.rate[0] += (ocs_real)1e-9; /* a new state: the step is not taken out of the loop */
+            state.rate[0] += (ocs_real)1e-9; /* a new state, so that no compiler moves the step out of the loop */
             ocs_step(&state, &command);
             sum += (double)command.torque[0];
         }
