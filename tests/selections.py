@@ -105,7 +105,7 @@ def lightest(problem):
 
 def has_device(problem):
     """Whether an exhaustive search finds any feasible device."""
-    return bool(search(problem).places)
+    return bool(search(problem).ranking)
 
 
 def with_radius(problem, share):

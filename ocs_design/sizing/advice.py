@@ -175,7 +175,7 @@ class Field:
         """Candidates that no bound rules out, the most promising first, few at first."""
         every = Candidates.of_each_material(self.problem, self.drives)
         # Candidates whose largest wheel has the most margin come first; too small ones are dropped.
-        beside = every.drives.beside_rim
+        beside = every.drives.inertia_beside_rim
         needed = np.repeat(self.needed, len(self.problem.materials))
         largest = largest_spin_inertia(every.limits) + beside
         spare = largest / np.maximum(needed, 1e-15)

@@ -12,7 +12,7 @@ from ocs_design.requirement.vocabulary import DETECTION
 from ocs_design.requirement.writing import specification_to_toml, with_absolute_files
 from ocs_design.sizing.limits import Progress, unseen
 from ocs_design.sizing.mounting import mounting_of, mounting_open_points
-from ocs_design.sizing.selection.device import survived
+from ocs_design.sizing.selection.device import maneuvers_survived
 from ocs_design.sizing.sized import Designed
 
 Choose = Callable[[Task], FrontDevice]
@@ -77,5 +77,7 @@ def layout_answer(layout: str, task: Task, designed: Designed) -> LayoutAnswer:
         momentum=vector(each * reach(device.axes)),
         momentum_without_one=vector(each * reach_without_one(device.axes)),
         open=tuple(point.what for point in mounting_open_points(mounting)),
-        survives=() if choice is None else survived(choice.problem, choice.chosen, DETECTION),
+        survives=()
+        if choice is None
+        else maneuvers_survived(choice.problem, choice.chosen, DETECTION),
     )

@@ -31,7 +31,7 @@ from ocs_design.requirement.uncertainty import UncertaintySection, complete_unce
 from ocs_design.requirement.vocabulary import DRAWN, RELIABILITY
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.stance import LANDING_TOLERANCE
-from ocs_design.sizing.selection.demand import held_in_roll, wheel_task
+from ocs_design.sizing.selection.demand import roll_cancelling_momentum, wheel_task
 from ocs_design.sizing.selection.problem import Candidate, SelectionProblem, inertia_at
 
 PUSH_OFF_REMAINDER = 0.08
@@ -589,7 +589,7 @@ class _SampledManeuver:
     @property
     def roll_rate_max(self) -> float:
         """The largest roll rate at lift-off that the device can cancel in a flip [rad/s]."""
-        per_rate = held_in_roll(
+        per_rate = roll_cancelling_momentum(
             1.0, self.nominal, self.yaw_inertia, self.designed_axes, self.requirement
         )
         capacity = self.device.spin_inertia * float(self.device.line.reserved().top_speed)

@@ -25,7 +25,7 @@ from ocs_design.robot.stance import LANDING_TOLERANCE
 from ocs_design.simulation.scenario import Flights
 from ocs_design.sizing.design import design_device
 from ocs_design.sizing.reserve import Reserve, ReserveNeeds
-from ocs_design.sizing.selection.demand import UNDOES, held_in_roll
+from ocs_design.sizing.selection.demand import ROLL_CANCELLED, roll_cancelling_momentum
 from ocs_design.sizing.trajectory.plans import plan
 
 FLIP = Flip(name="flip", gravity=1.62, jump_height=1.0, angle=-2.0 * np.pi, duration=2.0)
@@ -245,24 +245,30 @@ def test_wheels_grow_or_turn_for_a_roll_at_lift_off():
         found = each.choice.chosen
         whole, top = found.total.inertia, 0.95 * found.line.no_load_speed
         held = 2.0 * found.spin_inertia * top * np.sin(found.incidence)
-        asked = turned_roll(whole[0, 0], whole[2, 2]) * flip.undone / UNDOES
+        asked = turned_roll(whole[0, 0], whole[2, 2]) * flip.undone / ROLL_CANCELLED
         assert held >= asked * (1.0 - 1e-3)
 
 
 def test_wheels_that_reach_yaw_or_leave_roll_alone_hold_no_roll_of_a_flip():
     inertia, axes = TiltInertia.uncoupled([0.03, 0.05]), np.eye(3)
     asked = Requirement((FLIP,), None, 1.0, None, 0.27)
-    assert held_in_roll(0.1, inertia, 0.04, axes, asked) == 0.0
-    assert held_in_roll(0.1, inertia, 0.04, axes[:, 1:2], asked) == 0.0
+    assert roll_cancelling_momentum(0.1, inertia, 0.04, axes, asked) == 0.0
+    assert roll_cancelling_momentum(0.1, inertia, 0.04, axes[:, 1:2], asked) == 0.0
     assert (
-        held_in_roll(0.1, inertia, 0.04, axes[:, 1:2], replace(asked, incidence_is_free=True))
+        roll_cancelling_momentum(
+            0.1, inertia, 0.04, axes[:, 1:2], replace(asked, incidence_is_free=True)
+        )
         == np.inf
     )
     along = np.array([[0.6, -0.6], [0.8, 0.8], [0.0, 0.0]])
-    expected = 0.03 * (1.0 + 0.03 / 0.04) * 0.1 / UNDOES / 1.2
-    assert held_in_roll(0.1, inertia, 0.04, along, asked) == pytest.approx(expected, rel=1e-12)
+    expected = 0.03 * (1.0 + 0.03 / 0.04) * 0.1 / ROLL_CANCELLED / 1.2
+    assert roll_cancelling_momentum(0.1, inertia, 0.04, along, asked) == pytest.approx(
+        expected, rel=1e-12
+    )
     survives = replace(asked, detection=0.02)
-    assert held_in_roll(0.1, inertia, 0.04, along, survives) == pytest.approx(2.0 * expected)
+    assert roll_cancelling_momentum(0.1, inertia, 0.04, along, survives) == pytest.approx(
+        2.0 * expected
+    )
 
 
 def test_a_roll_at_lift_off_is_undone_by_the_momentum_of_the_closed_form():

@@ -28,8 +28,8 @@ from ocs_design.sizing.selection.bounds import (
 from ocs_design.sizing.selection.candidates import Candidates, drives_of
 from ocs_design.sizing.selection.composite_inertia import (
     CompositeInertia,
-    Least,
     LeastInertia,
+    ModuleBounds,
     least_composite_inertia,
 )
 from ocs_design.sizing.selection.demand import columns, wheel_task
@@ -92,7 +92,7 @@ def test_no_larger_or_heavier_module_has_less_inertia(layout):
     own = np.minimum(wheel.xx + wheel.zz, wheel.yy + wheel.zz)
     heaviest, place = 2.0 * (wheel.mass + motor.mass + foot.mass), AROUND[layout]
     zero = np.zeros_like(depth)
-    least = Least(wheel.mass, own, motor.mass, depth, zero, size, largest, heaviest)
+    least = ModuleBounds(wheel.mass, own, motor.mass, depth, zero, size, largest, heaviest)
     grown = Size(*(values * rng.uniform(1.0, 2.0, 500) for values in size))
     more, ahead = rng.uniform(1.0, 2.0, 500), rng.uniform(0.3, 1.0, 500)
     modules = whole_of(each(wheel, more), motor, ahead * depth, foot, grown)

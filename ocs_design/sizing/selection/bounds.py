@@ -37,11 +37,11 @@ from ocs_design.sizing.lightest_module import lightest_module
 from ocs_design.sizing.module_radii import smallest_radius
 from ocs_design.sizing.selection.candidates import Candidates, Guess, known_pairs, rim_limits
 from ocs_design.sizing.selection.composite_inertia import (
-    Least,
     LeastInertia,
+    ModuleBounds,
     least_composite_inertia,
 )
-from ocs_design.sizing.selection.demand import column, columns, needed_by_rate
+from ocs_design.sizing.selection.demand import column, columns, rate_change_spin_inertia
 from ocs_design.sizing.selection.drives import Drives
 from ocs_design.sizing.selection.problem import SelectionProblem
 
@@ -49,7 +49,7 @@ INTERVALS = 18
 """Number of intervals of the incidence that are bounded separately: 5 deg each."""
 
 _RIMS = 96
-_DIGITS, _SURELY = 4, 1.0 - 1e-4
+_DIGITS, _SAFETY = 4, 1.0 - 1e-4
 """Digits of the lightest rims, and the factor on their mass that makes it a safe bound."""
 
 
@@ -68,7 +68,7 @@ def incidence_intervals(incidence: float | None, count: int = INTERVALS) -> tupl
     return tuple(Interval(float(a), float(b)) for a, b in pairwise(edges))
 
 
-_UNFELT = {
+_IRRELEVANT_FIELDS = {
     "robot",
     "requirement",
     "place",
@@ -82,7 +82,7 @@ _UNFELT = {
 
 
 @dataclass(frozen=True)
-class _Kept:
+class _CachedProblem:
     """A problem that compares by its key."""
 
     key: tuple[object, ...]
@@ -113,18 +113,18 @@ class RimFloor:
         They do not depend on robot, maneuvers, supply and angle: alternatives that differ only in
         those share one result.
         """
-        felt = {each.name for each in fields(problem)} - _UNFELT
-        values = [getattr(problem, name) for name in sorted(felt)]
-        key = tuple(tuple(each) if isinstance(each, list) else each for each in values)
-        return cls._of(_Kept(key, problem))
+        relevant = {each.name for each in fields(problem)} - _IRRELEVANT_FIELDS
+        values = [getattr(problem, name) for name in sorted(relevant)]
+        key = tuple(tuple(value) if isinstance(value, list) else value for value in values)
+        return cls._of(_CachedProblem(key, problem))
 
     @classmethod
     @lru_cache(maxsize=16)
-    def _of(cls, kept: "_Kept") -> "RimFloor":
-        problem = kept.problem
+    def _of(cls, cached: "_CachedProblem") -> "RimFloor":
+        problem = cached.problem
         materials, webs = len(problem.materials), len(problem.lightenings)
         # Every rim of every material, in every web.
-        kinds = np.tile(np.repeat(np.arange(materials), _RIMS), webs)
+        material = np.tile(np.repeat(np.arange(materials), _RIMS), webs)
         mounts = [
             mount_of(motor, None, problem.foot_plate, on_bell=problem.on_bell)
             for motor in problem.motors
@@ -132,25 +132,25 @@ class RimFloor:
         geared = any(gear.room is not None for gear in problem.gears)
         # No motor's mount has holes nearer to the axis, and no wheel has a narrower hub.
         reach = 0.0 if geared else min(mount.holes.reach for mount in mounts)
-        slow, mount = (np.full(kinds.size, value) for value in (1e-3, reach))
+        slow_speed, mount_reach = (np.full(material.size, value) for value in (1e-3, reach))
         # No ring around a bell is lighter than a plain rim of free bore.
-        limits = rim_limits(problem, kinds, slow, mount)
+        limits = rim_limits(problem, material, slow_speed, mount_reach)
         if problem.web:
-            held = zip(problem.motors, mounts, strict=True)
+            mounted = zip(problem.motors, mounts, strict=True)
             narrow = min(
                 *(
                     max(hub_of(motor.mounting, motor.diameter).radius, mount.head_reach)
-                    for motor, mount in held
+                    for motor, mount in mounted
                 ),
                 *(hub_of(None, motor.diameter).radius for motor in problem.motors),
             )
-            share = [LIGHTENED[count] for count in problem.lightenings]
+            solid_shares = [LIGHTENED[count] for count in problem.lightenings]
             limits = limits_with_web(
                 limits,
                 narrow,
                 problem.cuts,
                 None if problem.web_material is None else problem.web_material.density,
-                lightened=np.repeat(share, materials * _RIMS),
+                lightened=np.repeat(solid_shares, materials * _RIMS),
             )
         room = problem.envelope
         disc = np.pi * limits.density * room.height_max * room.outer_radius_max**4 / 2.0
@@ -161,8 +161,8 @@ class RimFloor:
         # Where there is no room for holes, the web is solid.
         shell = Printed(reach, foot_plate=problem.foot_plate)
         mass = lightest_module(inertia, limits, shell, _DIGITS).mass
-        mass = _SURELY * np.nan_to_num(mass, nan=np.inf)
-        inertia, mass = (each.reshape(webs, materials, _RIMS) for each in (inertia, mass))
+        mass = _SAFETY * np.nan_to_num(mass, nan=np.inf)
+        inertia, mass = (values.reshape(webs, materials, _RIMS) for values in (inertia, mass))
         # A small demand may still get a larger rim, since the smallest fit no hub.
         mass = np.minimum.accumulate(mass.min(axis=0)[:, ::-1], axis=1)[:, ::-1]
         return cls(inertia[0], mass, problem.web_densities, len(problem.layout))
@@ -170,11 +170,11 @@ class RimFloor:
     def at(self, spin_inertia: FloatArray) -> FloatArray:
         """Lower bound of the mass [kg] for this spin inertia [kg m^2], shape (materials, n)."""
         rows = [
-            mass[np.maximum(np.searchsorted(grid, asked, side="right") - 1, 0)]
-            for grid, mass, asked in zip(self.spin_inertia, self.mass, spin_inertia, strict=True)
+            mass[np.maximum(np.searchsorted(grid, required, side="right") - 1, 0)]
+            for grid, mass, required in zip(self.spin_inertia, self.mass, spin_inertia, strict=True)
         ]
-        beyond = spin_inertia > self.spin_inertia[:, -1:]
-        return np.where(beyond, np.inf, np.stack(rows))
+        too_large = spin_inertia > self.spin_inertia[:, -1:]
+        return np.where(too_large, np.inf, np.stack(rows))
 
 
 @dataclass(eq=False)
@@ -200,7 +200,7 @@ class PairBounds:
         floor = RimFloor.of(problem)
         motors = np.array([motor.mass or 0.0 for motor in problem.motors])
         plate, on_bell = problem.foot_plate, problem.on_bell
-        mounts = np.array([_held_mass(motor, plate, on_bell) for motor in problem.motors])
+        mounts = np.array([_mount_mass(motor, plate, on_bell) for motor in problem.motors])
         gears = np.array([gear.mass for gear in problem.gears])
         direct = np.array([gear.room is None for gear in problem.gears])
         drives = motors[:, None] + np.where(direct, mounts[:, None], 0.0) + gears
@@ -211,7 +211,7 @@ class PairBounds:
 
 
 @lru_cache(maxsize=512)
-def _held_mass(motor: Motor, foot_plate: float, on_bell: bool) -> float:
+def _mount_mass(motor: Motor, foot_plate: float, on_bell: bool) -> float:
     """Least mass of screws and cage, less the holes [kg]."""
     mount = mount_of(motor, None, foot_plate, on_bell=on_bell)
     return mount.by_floor().mass + mount.by_wheel().mass
@@ -219,8 +219,8 @@ def _held_mass(motor: Motor, foot_plate: float, on_bell: bool) -> float:
 
 def least_masses(floor: RimFloor, drives: Drives, spin_inertia: FloatArray) -> FloatArray:
     """Lower bounds of the device's mass [kg], shape (materials, n); inf: no device."""
-    on_webs = drives.of_webs(floor.web_density[:, None])
-    rim = spin_inertia - on_webs.beside_rim
+    on_webs = drives.with_web_densities(floor.web_density[:, None])
+    rim = spin_inertia - on_webs.inertia_beside_rim
     lightest = np.where(np.isfinite(rim), floor.at(np.where(np.isfinite(rim), rim, 0.0)), np.inf)
     return floor.wheels * (on_webs.mass + lightest)
 
@@ -245,16 +245,16 @@ def least_spin_inertias(
     needed = np.broadcast_to(below[:, None], (len(drives), len(intervals)))
     demands = []
     for maneuver in requirement.maneuvers:
-        own = maneuver.incidence
-        at = intervals if own is None else [Interval(own, own)]
-        task = bound_task(maneuver, requirement, least, at, problem.layout)
+        incidence = maneuver.incidence
+        maneuver_intervals = intervals if incidence is None else [Interval(incidence, incidence)]
+        task = bound_task(maneuver, requirement, least, maneuver_intervals, problem.layout)
         demands.append(spin_demand(task, line, armature, below[:, None]))
-    for asked in smallest_roots(demands) if demands else ():
-        needed = np.maximum(needed, asked)
+    for required in smallest_roots(demands) if demands else ():
+        needed = np.maximum(needed, required)
     if requirement.rate_change is not None:
-        alone = column(TiltInertia.uncoupled(least.inertia.diagonal))
+        uncoupled = column(TiltInertia.uncoupled(least.inertia.diagonal))
         axes = np.stack([problem.layout.hull(*interval) for interval in intervals])
-        by_rate = needed_by_rate(requirement.rate_change, drives, alone, axes)
+        by_rate = rate_change_spin_inertia(requirement.rate_change, drives, uncoupled, axes)
         needed = np.maximum(needed, by_rate)
     specified = requirement.spin_inertia
     if specified is None:
@@ -304,7 +304,9 @@ def least_inertia(
     Limits of their rims improve the bound, at the cost of computing the lightest rims.
     """
     room, density = problem.envelope, max(material.density for material in problem.materials)
-    rim = np.maximum(np.where(np.isfinite(spin_inertia), spin_inertia - drives.beside_rim, 0.0), 0)
+    rim = np.maximum(
+        np.where(np.isfinite(spin_inertia), spin_inertia - drives.inertia_beside_rim, 0.0), 0
+    )
     zero, widest = np.zeros_like(rim), np.full_like(rim, room.outer_radius_max)
     if limits is None:
         closed = room.wall_min / (1.0 - BORE_SHARE)
@@ -314,7 +316,7 @@ def least_inertia(
         rim = np.maximum(rim, smallest_rim_inertia(limits) * OFF_THE_EDGE)
         # A wheel of more spin inertia is not smaller.
         radius = np.minimum(smallest_radius(rim, limits), widest)
-        wheel = _SURELY * np.nan_to_num(lightest_module(rim, limits, PlainDrum(), _DIGITS).mass)
+        wheel = _SAFETY * np.nan_to_num(lightest_module(rim, limits, PlainDrum(), _DIGITS).mass)
     seat = drives.seat
     at_floor, at_wheel = seat.by_floor, seat.by_wheel
     stands = at_floor.mass + seat.holes
@@ -322,12 +324,12 @@ def least_inertia(
     # The holes are at most this far behind the floor.
     holes = seat.holes * problem.foot_plate
     fullest = np.minimum(room.mass_max, np.pi * density * widest**2 * room.height_max)
-    web = np.pi * problem.web_thickness * drives.web_most * widest**2
+    web = np.pi * problem.web_thickness * drives.web_density_max * widest**2
     guard, tallest = problem.guard_wall, np.maximum(room.height_max, seat.room)
     # Posts are longest behind the flattest rim.
     around = Printed(seat.reach, guard_wall=guard, foot_plate=problem.foot_plate)
     shell = around.mass(widest, tallest) + seat.posts.mass(zero)
-    least = Least(
+    least = ModuleBounds(
         mass=np.maximum(wheel + drives.hub_mass - seat.holes, 0.0),
         # A body of revolution has at least half its axial inertia across its axis.
         inertia=drives.hub_inertia + rim / 2.0,
@@ -336,7 +338,7 @@ def least_inertia(
         above=(at_floor.z + at_wheel.z) / behind,
         smallest=drives.size(radius + guard, zero + room.height_min),
         largest=drives.size(widest + guard, tallest),
-        heaviest=at_floor.mass + at_wheel.mass + drives.hub_mass_most + fullest + web + shell,
+        heaviest=at_floor.mass + at_wheel.mass + drives.hub_mass_max + fullest + web + shell,
     )
     return least_composite_inertia(problem.robot, problem.place, least, problem.layout)
 
@@ -352,19 +354,19 @@ def initial_guess(candidates: Candidates, spin_inertia: FloatArray) -> Guess:
         spin_inertia: a lower bound of their wheels' [kg m^2], shape (n,).
     """
     intervals = incidence_intervals(candidates.problem.incidence)
-    needed = least_spin_inertias(
+    bounds = least_spin_inertias(
         candidates.problem, candidates.drives, intervals, spin_inertia, candidates.limits
     )
     # The uncertainty extends beyond the best interval, as that of the bound need not contain the
     # best incidence.
     low, high = np.array([(interval.low, interval.high) for interval in intervals])[
-        needed.argmin(axis=1)
+        bounds.argmin(axis=1)
     ].T
-    spin = needed.min(axis=1)
+    spin = bounds.min(axis=1)
     known = np.isfinite(spin)
     least = smallest_rim_inertia(candidates.limits) * OFF_THE_EDGE
-    rim = np.maximum(np.where(known, spin, 0.0) - candidates.drives.beside_rim, least)
+    rim = np.maximum(np.where(known, spin, 0.0) - candidates.drives.inertia_beside_rim, least)
     module = lightest_module(rim, candidates.limits, candidates.shell, _DIGITS).mass
-    mass = len(candidates.problem.layout) * (candidates.drives.mass + _SURELY * module)
+    mass = len(candidates.problem.layout) * (candidates.drives.mass + _SAFETY * module)
     mass = np.where(known & (module > 0.0), mass, np.inf)
     return Guess(spin, mass, (low + high) / 2.0, high - low)

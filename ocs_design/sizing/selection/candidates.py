@@ -88,13 +88,13 @@ class Candidates(Table):
     def of_each_material(cls, problem: SelectionProblem, drives: Drives) -> "Candidates":
         """Every drive with a rim of every material of the problem, drive by drive."""
         kinds, rows = np.arange(len(problem.materials)), np.arange(len(drives))
-        material, row = (each.ravel() for each in np.meshgrid(kinds, rows))
+        material, row = (indices.ravel() for indices in np.meshgrid(kinds, rows))
         return cls(problem, drives.take(row), material)
 
     @cached_property
     def drives(self) -> Drives:
         """Motor and gear of each, with the hub of its wheel."""
-        return self.pairs.of_webs(self.problem.web_densities[self.material])
+        return self.pairs.with_web_densities(self.problem.web_densities[self.material])
 
     @cached_property
     def limits(self) -> RimLimits:
@@ -131,12 +131,12 @@ class Candidates(Table):
 
         A rotor that turns against its wheel may cancel the momentum of the smallest rim.
         """
-        least = smallest_rim_inertia(self.limits) * OFF_THE_EDGE + self.drives.beside_rim
+        least = smallest_rim_inertia(self.limits) * OFF_THE_EDGE + self.drives.inertia_beside_rim
         return np.maximum(least, _NOTHING)
 
     def shapes_at(self, spin_inertia: FloatArray, radius: FloatArray) -> ModuleShape:
         """Lightest modules of these spin inertias [kg m^2] with outer radii near these [m]."""
-        rim = spin_inertia - self.drives.beside_rim
+        rim = spin_inertia - self.drives.inertia_beside_rim
         return lightest_module_at(rim, radius, self.limits, self.shell)
 
     def modules(
@@ -146,21 +146,21 @@ class Candidates(Table):
         drives, wheel = self.drives, spin_inertia - self.drives.rotor_share
         seat, guard = drives.seat, self.problem.guard_wall
         inner, outer, height = shapes.inner_radius, shapes.outer_radius, shapes.height
-        across = cylinder_transverse_inertia(inner, outer, height, 1.0)
-        across = across - self.limits.cuts.transverse_inertia(inner, outer, height, 1.0)
-        across = across * self.limits.density
+        transverse = cylinder_transverse_inertia(inner, outer, height, 1.0)
+        transverse = transverse - self.limits.cuts.transverse_inertia(inner, outer, height, 1.0)
+        transverse = transverse * self.limits.density
         web = web_inertia(self.limits, inner) / 2.0
         web = web + shapes.web_mass * self.problem.web_thickness**2 / 12.0
         mass = shapes.rim_mass + shapes.web_mass + drives.hub_mass
-        tall = np.maximum(height, seat.room)
-        whole = (
-            round_body(mass, wheel, across + web + drives.hub.across * drives.web_most)
-            + self.shell.moments(outer, tall)
+        housed_height = np.maximum(height, seat.room)
+        moments = (
+            round_body(mass, wheel, transverse + web + drives.hub.across * drives.web_density_max)
+            + self.shell.moments(outer, housed_height)
             + seat.posts.moments(height)
             + seat.by_wheel
-            + seat.by_floor.shifted(-half_height(tall), np.zeros_like(tall))
+            + seat.by_floor.shifted(-half_height(housed_height), np.zeros_like(housed_height))
         )
-        return whole, drives.size(outer + guard, height)
+        return moments, drives.size(outer + guard, height)
 
     def on_robot(self, spin_inertia: FloatArray, shapes: ModuleShape) -> CompositeInertia:
         """Composite inertia of robot and modules of each candidate."""
@@ -204,11 +204,13 @@ def rim_limits(
         mount_reach: radius of the holes in its housing's floor [m].
     """
     room = problem.envelope
-    each = [RimProblem(0.0, room, kind, 1.0).limits for kind in problem.materials]
-    figures = np.array([(one.density, one.stretch_max, one.poisson_ratio) for one in each])
-    density, stretch, poisson_ratio = figures[material].T
+    rims = [RimProblem(0.0, room, kind, 1.0).limits for kind in problem.materials]
+    figures_by_material = np.array(
+        [(rim.density, rim.stretch_max, rim.poisson_ratio) for rim in rims]
+    )
+    density, stretch, poisson_ratio = figures_by_material[material].T
     return replace(
-        each[0],
+        rims[0],
         density=density,
         inner_radius_min=np.full_like(density, room.inner_radius_min),
         height_min=np.full_like(density, room.height_min),
@@ -226,7 +228,7 @@ def _around_bells(candidates: "Candidates", plain: RimLimits) -> RimLimits:
     problem, material = candidates.problem, candidates.material
     bore, cuts, room = candidates.drives.seat.bell, problem.cuts, problem.envelope
     # Where a material's data are incomplete, temperature is left out, and its joint is unknown.
-    warm = np.array(
+    thermal = np.array(
         [
             (kind.elastic_modulus, kind.thermal_expansion)
             if kind.elastic_modulus is not None and kind.thermal_expansion is not None
@@ -234,7 +236,7 @@ def _around_bells(candidates: "Candidates", plain: RimLimits) -> RimLimits:
             for kind in problem.materials
         ]
     )
-    modulus, expansion = warm[material].T
+    modulus, expansion = thermal[material].T
     widest = bell_bond_radius(
         np.maximum(bore, _LEAST_BELL),
         room.outer_radius_max,
@@ -244,13 +246,13 @@ def _around_bells(candidates: "Candidates", plain: RimLimits) -> RimLimits:
         expansion=expansion,
         speed=candidates.drives.overspeed,
     )
-    least = np.maximum(room.inner_radius_min, cuts.inner_radius_min)
+    bore_min = np.maximum(room.inner_radius_min, cuts.inner_radius_min)
     return replace(
         plain,
         outer_radius_max=np.minimum(room.outer_radius_max, widest),
         inner_radius_min=bore,
         inner_radius_max=bore,
-        height_max=np.where((bore >= least) & (bore > 0.0), room.height_max, _NO_HEIGHT),
+        height_max=np.where((bore >= bore_min) & (bore > 0.0), room.height_max, _NO_HEIGHT),
         height_min=np.maximum(plain.height_min, cuts.height_min),
         wall_min=np.maximum(room.wall_min, cuts.wall_min),
         cuts=cuts,
@@ -280,38 +282,42 @@ def drives_of(
         webs: index of each one's web, shape (n,); None: the first for all.
     """
     motors, gears = pairs.T
-    kinds = np.zeros_like(motors) if webs is None else webs
+    web_indices = np.zeros_like(motors) if webs is None else webs
     lines: list[DriveLine] = []
     hubs: list[HubFigures[Any]] = []
     rotors: list[tuple[float, float]] = []
     # Where one drive fails, the others share its power.
-    busy = max(problem.layout.tilting - (problem.requirement.detection is not None), 1)
-    top = problem.wheel_speed_max or np.inf
-    for (index, gear_index), kind in zip(pairs.tolist(), kinds.tolist(), strict=True):
+    sharing = max(problem.layout.tilting - (problem.requirement.detection is not None), 1)
+    speed_max = problem.wheel_speed_max or np.inf
+    for (index, gear_index), web in zip(pairs.tolist(), web_indices.tolist(), strict=True):
         motor, gear = problem.motors[index], problem.gears[gear_index]
         line = drive_line(motor, gear, problem.bus_voltage)
         gain = gear.ratio * gear.efficiency * (motor.torque_constant or np.inf)
         peak = float(line.torque_limit) / gain
-        power = gear.efficiency * power_less_friction(problem.supply, busy, motor, peak) / busy
-        lines.append(replace(line, speed_max=np.minimum(line.speed_max, top), power_max=power))
+        power = (
+            gear.efficiency * power_less_friction(problem.supply, sharing, motor, peak) / sharing
+        )
+        lines.append(
+            replace(line, speed_max=np.minimum(line.speed_max, speed_max), power_max=power)
+        )
         rotor = motor.rotor_inertia or 0.0
         rotors.append((rotor_share(rotor, gear), armature(rotor, gear)))
-        hub = problem.hub(motor, gear, problem.lightenings[kind])
+        hub = problem.hub(motor, gear, problem.lightenings[web])
         hubs.append(HubFigures.of(hub or NO_HUB))
     # One more row, which is left out: there may be no pairs.
     rows = slice(len(pairs))
-    share, moved = np.array([*rotors, (0.0, 0.0)]).T
+    share, armatures = np.array([*rotors, (0.0, 0.0)]).T
     drives = Drives(
         motor=motors,
         gear=gears,
-        web=kinds,
+        web=web_indices,
         seat=_seats(problem, pairs),
-        whole=stacked([*lines, DriveLine(0.0, 0.0, 0.0, 0.0)]).take(rows),
+        full_line=stacked([*lines, DriveLine(0.0, 0.0, 0.0, 0.0)]).take(rows),
         rotor_share=share[rows],
-        armature=moved[rows],
+        armature=armatures[rows],
         hub=stacked([*hubs, HubFigures.of(NO_HUB)]).take(rows),
-        web_least=np.full(len(pairs), problem.web_densities.min()),
-        web_most=np.full(len(pairs), problem.web_densities.max()),
+        web_density_min=np.full(len(pairs), problem.web_densities.min()),
+        web_density_max=np.full(len(pairs), problem.web_densities.max()),
     )
     if not problem.web:
         return drives
@@ -321,23 +327,23 @@ def drives_of(
 
 def _seats(problem: SelectionProblem, pairs: NDArray[np.intp]) -> Seat[FloatArray]:
     """Seats of the drives, computed once per motor with and without a gear, and once per gear."""
-    known, of_motor = np.unique(pairs[:, 0], return_inverse=True)
-    motors = [problem.motors[m] for m in known.tolist()] or problem.motors[:1]
+    motor_indices, of_motor = np.unique(pairs[:, 0], return_inverse=True)
+    motors = [problem.motors[m] for m in motor_indices.tolist()] or problem.motors[:1]
     # One row per motor with a gear, the next for the same motor with the wheel on its shaft.
     rooms, plate, on_bell = (GearRoom(), None), problem.foot_plate, problem.on_bell
-    held: list[Seat[Any]] = [
+    seats_of_motors: list[Seat[Any]] = [
         _seat(motor, room, plate, on_bell=on_bell) for motor in motors for room in rooms
     ]
     gears = [problem.gears[g] for g in pairs[:, 1].tolist()]
     row = 2 * of_motor + np.array([gear.room is None for gear in gears], dtype=np.intp)
-    seats = stacked(held).take(row)
+    seats = stacked(seats_of_motors).take(row)
     # A motor behind a gear is set back by the gear's depth.
     depth = np.array([0.0 if gear.room is None else gear.room.depth for gear in gears])
-    up = np.array([0.0 if gear.room is None else gear.room.offset for gear in gears])
+    offset = np.array([0.0 if gear.room is None else gear.room.offset for gear in gears])
     stages: list[MassMoments[Any]] = [gear_moments(gear, plate) for gear in problem.gears]
     geared = stacked(stages).take(pairs[:, 1])
     return replace(
         seats,
-        by_floor=seats.by_floor.shifted(-depth, up) + geared,
+        by_floor=seats.by_floor.shifted(-depth, offset) + geared,
         behind=replace(seats.behind, depth=seats.behind.depth + depth),
     )

@@ -39,26 +39,36 @@ class CompositeInertia:
             S = S_robot + sum_i (m c_i c_i^T + c_i f_i^T + f_i c_i^T + R_i S R_i^T)
                 - F F^T / (M + sum_i m),    F = sum_i (m c_i + f_i).
         """
-        one = MassMoments(*(np.asarray(each)[..., None] for each in vars(self.module).values()))
+        module = MassMoments(
+            *(np.asarray(moment)[..., None] for moment in vars(self.module).values())
+        )
         frames = self.layout.frames(angle)
         # Components of the outward and upward axes, and the wheels' positions, shape (3, w, n, k).
         y, z = np.ascontiguousarray(frames.T[1:].swapaxes(-1, -2))
-        place, first = self.centers.T[..., None], one.y * y + one.z * z
+        centers, module_moments = self.centers.T[..., None], module.y * y + module.z * z
         count = frames.shape[-3]
-        whole = self.robot.mass + count * one.mass
-        total = one.mass * place.sum(axis=1) + first.sum(axis=1)
+        total_mass = self.robot.mass + count * module.mass
+        first_moment = module.mass * centers.sum(axis=1) + module_moments.sum(axis=1)
         of_robot = np.trace(self.robot.inertia) / 2.0 * np.eye(3) - self.robot.inertia
         # Sums of mass times two coordinates about the whole's centre of mass [kg m^2].
         second: dict[tuple[int, int], FloatArray] = {}
         for i, j in combinations_with_replacement(range(3), 2):
             # R_i S R_i^T = xx 1 + (yy - xx) y y^T + (zz - xx) z z^T + yz (y z^T + z y^T).
-            own = (one.yy - one.xx) * (y[i] * y[j]).sum(axis=0)
-            own = own + (one.zz - one.xx) * (z[i] * z[j]).sum(axis=0)
-            own = own + one.yz * (y[i] * z[j] + z[i] * y[j]).sum(axis=0)
-            apart = one.mass * (place[i] * place[j]).sum(axis=0)
-            apart = apart + (place[i] * first[j] + first[i] * place[j]).sum(axis=0)
-            round_ = (i == j) * count * one.xx
-            second[i, j] = of_robot[i, j] + own + round_ + apart - total[i] * total[j] / whole
+            of_modules = (module.yy - module.xx) * (y[i] * y[j]).sum(axis=0)
+            of_modules = of_modules + (module.zz - module.xx) * (z[i] * z[j]).sum(axis=0)
+            of_modules = of_modules + module.yz * (y[i] * z[j] + z[i] * y[j]).sum(axis=0)
+            of_positions = module.mass * (centers[i] * centers[j]).sum(axis=0)
+            of_positions = of_positions + (
+                centers[i] * module_moments[j] + module_moments[i] * centers[j]
+            ).sum(axis=0)
+            isotropic = (i == j) * count * module.xx
+            second[i, j] = (
+                of_robot[i, j]
+                + of_modules
+                + isotropic
+                + of_positions
+                - first_moment[i] * first_moment[j] / total_mass
+            )
         xx, yy, zz = (second[axis, axis] for axis in range(3))
         product = -second[0, 1] - second[0, 2] * second[1, 2] / (xx + yy)
         return TiltInertia(np.stack([yy + zz, xx + zz], axis=-1), product), xx + yy
@@ -80,7 +90,7 @@ class LeastInertia(NamedTuple):
     spread: FloatArray
 
 
-class Least(NamedTuple):
+class ModuleBounds(NamedTuple):
     """Lower and upper bounds for one module of a kind, all of shape (n,).
 
     Attributes:
@@ -101,7 +111,7 @@ class Least(NamedTuple):
     largest: Size[FloatArray]
     heaviest: FloatArray
 
-    def lopsidedness(self, apart: FloatArray, layout: Layout) -> FloatArray:
+    def asymmetry(self, apart: FloatArray, layout: Layout) -> FloatArray:
         """Upper bound on I_xy about their middle of modules that are not mirror images [kg m^2].
 
         Args:
@@ -141,7 +151,7 @@ class Least(NamedTuple):
 
 
 def least_composite_inertia(
-    robot: MassProperties, place: Place, least: Least, layout: Layout = PAIR
+    robot: MassProperties, place: Place, least: ModuleBounds, layout: Layout = PAIR
 ) -> LeastInertia:
     """Lower bound of the inertia with modules no smaller and no lighter than the given bounds.
 
@@ -163,11 +173,11 @@ def least_composite_inertia(
     off, risen = least.behind * least.depth / mass, least.behind * least.above / mass
     # A pair's wheels face away from each other: the parts behind them do not shift their middle.
     aside, sunk = (0.0 * off, 0.0 * off) if layout.pairs else (off, off + np.abs(risen))
-    forward = _least_square((x[0] - off, x[1] + aside), robot.com[0])
-    left = _least_square((y[0] - aside, y[1] + aside), robot.com[1])
-    up = _least_square((z[0] - sunk, z[1] + risen + sunk), robot.com[2])
+    forward = _least_squared_distance((x[0] - off, x[1] + aside), robot.com[0])
+    left = _least_squared_distance((y[0] - aside, y[1] + aside), robot.com[1])
+    up = _least_squared_distance((z[0] - sunk, z[1] + risen + sunk), robot.com[2])
     # Spread of the wheels about their own middle, without the parts behind them.
-    spread = _least_square((apart.min(axis=0), apart.max(axis=0)), 0.0).sum(axis=-2)
+    spread = _least_squared_distance((apart.min(axis=0), apart.max(axis=0)), 0.0).sum(axis=-2)
     along, across, above = least.mass * spread.T
     reduced = robot.mass * wheels * mass / (robot.mass + wheels * mass)
     own = wheels * least.inertia
@@ -177,12 +187,12 @@ def least_composite_inertia(
     product = np.full(len(roll), TiltInertia.of(robot.inertia).product)
     coupling = least.coupling_spread(robot, x, z, wheels)
     if not layout.pairs:
-        coupling = coupling + least.lopsidedness(apart, layout)
+        coupling = coupling + least.asymmetry(apart, layout)
     return LeastInertia(TiltInertia(diagonal, product), coupling)
 
 
-def _least_square(between: _Range, about: float) -> FloatArray:
-    """Least squared distance from `about` to any value in a range."""
-    low, high = between[0] - about, between[1] - about
+def _least_squared_distance(interval: _Range, point: float) -> FloatArray:
+    """Least squared distance from `point` to any value in a range."""
+    low, high = interval[0] - point, interval[1] - point
     least: FloatArray = np.maximum(np.maximum(low, -high), 0.0) ** 2
     return least

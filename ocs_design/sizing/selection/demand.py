@@ -19,7 +19,7 @@ from ocs_design.sizing.selection.composite_inertia import CompositeInertia
 from ocs_design.sizing.selection.drives import Drives
 from ocs_design.sizing.selection.problem import Candidate
 
-UNDOES = 0.35
+ROLL_CANCELLED = 0.35
 """Fraction of all wheels' roll momentum at top speed that can cancel a roll at lift-off while they
 turn a flip. In simulation (docs/theory.md, A roll at lift-off): robots fail above 0.36 with
 Solo12's lightest device, 0.40 and 0.45 with Romeo's of two and four wheels, 0.47 with TALOS's of
@@ -31,18 +31,18 @@ class Margins(NamedTuple):
 
     Attributes:
         margin: capability relative to the demand; at least 1 if they are in time.
-        following: improved estimate of the smallest sufficient spin inertia [kg m^2]; from below it
+        improved: better estimate of the smallest sufficient spin inertia [kg m^2]; from below it
             does not overshoot; inf: none suffices.
     """
 
     margin: FloatArray
-    following: FloatArray
+    improved: FloatArray
 
 
 def margins_of(
     requirement: Requirement,
     drives: Drives,
-    whole: CompositeInertia,
+    composite: CompositeInertia,
     spin_inertia: FloatArray,
     angle: FloatArray,
 ) -> tuple[list[Margins], list[Margins]]:
@@ -50,7 +50,7 @@ def margins_of(
 
     Args:
         requirement: maneuvers and rate change.
-        drives: n of them, each as part of its own `whole`.
+        drives: n of them, each as part of its own `composite`.
         spin_inertia: of their wheels [kg m^2], shape (n,).
         angle: of the design's layout [rad], shape (n, k).
 
@@ -60,59 +60,66 @@ def margins_of(
     """
     spin, with_rate = spin_inertia[:, None], bool(requirement.reserves)
 
-    def tried(maneuvers: Sequence[Maneuver], at: FloatArray, *, with_rate: bool) -> list[Margins]:
-        """Margins of each maneuver, and with `with_rate` also of each starting with a rate."""
+    def margins_at(
+        maneuvers: Sequence[Maneuver], at: FloatArray, *, with_rate: bool
+    ) -> list[Margins]:
+        """Margins of each maneuver, and with a rate also of each starting with its reserve's."""
         if not maneuvers:
             return []
         # All at once: for few candidates, a NumPy call costs more than its work.
-        starts = [False] * len(maneuvers) + [True] * (len(maneuvers) * with_rate)
-        every = [*maneuvers, *maneuvers] if with_rate else maneuvers
-        inertia, yaw_inertia = whole.at(at)
+        have_rate = [False] * len(maneuvers) + [True] * (len(maneuvers) * with_rate)
+        cases = [*maneuvers, *maneuvers] if with_rate else maneuvers
+        inertia, yaw_inertia = composite.at(at)
         task = wheel_task(
-            every, requirement, inertia, yaw_inertia, whole.layout.axes(at), with_rate=starts
+            cases, requirement, inertia, yaw_inertia, composite.layout.axes(at), with_rate=have_rate
         )
         demand = spin_demand(task, columns(drives.line), drives.armature[:, None])
-        can = capability(demand, spin)
-        following = newton_step(demand, spin, can)
+        capacity = capability(demand, spin)
+        improved = newton_step(demand, spin, capacity)
         with np.errstate(divide="ignore"):
-            margin = can.sweep / demand.sweep
-        return [Margins(*both) for both in zip(margin, following, strict=True)]
+            margin = capacity.sweep / demand.sweep
+        return [Margins(*both) for both in zip(margin, improved, strict=True)]
 
-    by_design, turned = list[Margins](), list[Margins]()
-    free = [maneuver for maneuver in requirement.maneuvers if maneuver.incidence is None]
+    at_design, at_own = list[Margins](), list[Margins]()
+    unspecified = [maneuver for maneuver in requirement.maneuvers if maneuver.incidence is None]
     for headed in (False, True):
-        some = [maneuver for maneuver in free if maneuver.headed == headed]
-        by_design += tried(some, angle, with_rate=requirement.incidence_is_free and with_rate)
+        maneuvers = [maneuver for maneuver in unspecified if maneuver.headed == headed]
+        at_design += margins_at(
+            maneuvers, angle, with_rate=requirement.incidence_is_free and with_rate
+        )
     if requirement.rate_change is not None:
-        axes, one_stops = whole.layout.axes(angle)[..., :2, :], requirement.detection is not None
-        inertia, _ = whole.at(angle)
-        needed = needed_by_rate(requirement.rate_change, drives, inertia, axes, one_stops=one_stops)
-        by_design.append(Margins(spin / needed, needed))
+        axes = composite.layout.axes(angle)[..., :2, :]
+        inertia, _ = composite.at(angle)
+        one_stops = requirement.detection is not None
+        needed = rate_change_spin_inertia(
+            requirement.rate_change, drives, inertia, axes, one_stops=one_stops
+        )
+        at_design.append(Margins(spin / needed, needed))
     for maneuver in requirement.maneuvers:
-        own = angle
+        angles = angle
         if maneuver.incidence is not None:
-            own = np.full((len(drives), 1), maneuver.incidence)
-            turned += tried([maneuver], own, with_rate=with_rate)
-        kept = requirement.reserve(maneuver)
-        if kept.roll > 0.0:
-            inertia, yaw_inertia = whole.at(own)
-            most = held_in_roll(
-                kept.roll, inertia, yaw_inertia, whole.layout.axes(own), requirement
+            angles = np.full((len(drives), 1), maneuver.incidence)
+            at_own += margins_at([maneuver], angles, with_rate=with_rate)
+        reserve = requirement.reserve(maneuver)
+        if reserve.roll > 0.0:
+            inertia, yaw_inertia = composite.at(angles)
+            momentum = roll_cancelling_momentum(
+                reserve.roll, inertia, yaw_inertia, composite.layout.axes(angles), requirement
             )
-            needed = most / drives.top_speed[:, None]
+            needed = momentum / drives.top_speed[:, None]
             with np.errstate(divide="ignore"):
-                part = Margins(spin / needed, needed)
-            (by_design if maneuver.incidence is None else turned).append(part)
-    return by_design, turned
+                margins = Margins(spin / needed, needed)
+            (at_design if maneuver.incidence is None else at_own).append(margins)
+    return at_design, at_own
 
 
-def worst(parts: Sequence[Margins], shape: tuple[int, ...]) -> Margins:
+def worst_case(parts: Sequence[Margins], shape: tuple[int, ...]) -> Margins:
     """Least margin and largest demand; infinity and 0 where there is no part."""
-    margin, following = np.full(shape, np.inf), np.zeros(shape)
+    margin, improved = np.full(shape, np.inf), np.zeros(shape)
     for part in parts:
         margin = np.minimum(margin, part.margin)
-        following = np.maximum(following, part.following)
-    return Margins(margin, following)
+        improved = np.maximum(improved, part.improved)
+    return Margins(margin, improved)
 
 
 def wheel_task(
@@ -138,31 +145,34 @@ def wheel_task(
     headed = maneuvers[0].headed
     axes = axes if headed else axes[..., :2, :]
     inertia, reach = inertia.times(axes.shape[:-2]), np.abs(axes[..., :2, :]).max(axis=-1)
-    each = [maneuver.turned(inertia).within_reach(reach, maneuver.stray) for maneuver in maneuvers]
-    starts = [False] * len(maneuvers) if with_rate is None else with_rate
+    inertias = [
+        maneuver.turned(inertia).within_reach(reach, maneuver.stray) for maneuver in maneuvers
+    ]
+    have_rate = [False] * len(maneuvers) if with_rate is None else with_rate
     slews = [
-        requirement.slew(maneuver, own, with_rate=start)
-        for maneuver, own, start in zip(maneuvers, each, starts, strict=True)
+        requirement.slew(maneuver, turned_inertia, with_rate=has_rate)
+        for maneuver, turned_inertia, has_rate in zip(maneuvers, inertias, have_rate, strict=True)
     ]
     swept = np.stack([slew.swept for slew in slews])
     momentum = np.stack([slew.momentum for slew in slews])
     if headed:
-        about, whole = [], np.broadcast_to(yaw_inertia, axes.shape[:-2])
-        for maneuver, start in zip(maneuvers, starts, strict=True):
-            kept = requirement.reserve(maneuver)
-            about.append(
+        headings, whole = [], np.broadcast_to(yaw_inertia, axes.shape[:-2])
+        for maneuver, has_rate in zip(maneuvers, have_rate, strict=True):
+            reserve = requirement.reserve(maneuver)
+            headings.append(
                 np.multiply(
-                    maneuver.heading(whole), kept.demand_with_rate if start else kept.demand
+                    maneuver.heading(whole),
+                    reserve.demand_with_rate if has_rate else reserve.demand,
                 )
             )
-        turned, held_up = np.stack(about, axis=1)[..., None]
+        turned, held_up = np.stack(headings, axis=1)[..., None]
         swept = np.concatenate([swept, turned], axis=-1)
         momentum = np.concatenate([momentum, held_up], axis=-1)
     return WheelTask(
         swept=swept,
         momentum=momentum,
         duration=np.array([slew.duration for slew in slews])[:, None, None],
-        inertia=TiltInertia(*(np.stack(parts) for parts in zip(*each, strict=True))),
+        inertia=TiltInertia(*(np.stack(parts) for parts in zip(*inertias, strict=True))),
         axes=axes,
         one_stops=requirement.detection is not None,
         yaw_inertia=np.asarray(yaw_inertia) if headed else None,
@@ -171,7 +181,7 @@ def wheel_task(
     )
 
 
-def needed_by_rate(
+def rate_change_spin_inertia(
     rate_change: float,
     drives: Drives,
     inertia: TiltInertia,
@@ -184,12 +194,12 @@ def needed_by_rate(
     h = phi(J_i d) / W at the highest speed, without a time limit (docs/theory.md, Lower bound on
     the wheels' inertia).
     """
-    most = held_by_rate(rate_change, inertia, axes, one_stops=one_stops).max(axis=-1)
-    needed: FloatArray = most / drives.top_speed[:, None]
-    return needed
+    momentum = rate_change_momenta(rate_change, inertia, axes, one_stops=one_stops).max(axis=-1)
+    spin_inertia: FloatArray = momentum / drives.top_speed[:, None]
+    return spin_inertia
 
 
-def held_by_rate(
+def rate_change_momenta(
     rate_change: float, inertia: TiltInertia, axes: FloatArray, *, one_stops: bool = False
 ) -> FloatArray:
     """Momentum of the busiest wheel for a change of roll rate, and of pitch rate, (..., 2).
@@ -198,10 +208,12 @@ def held_by_rate(
     """
     momenta = rate_momenta(inertia, rate_change)
     # Both relative signs of the momenta.
-    both = momenta[..., None, :] * np.array([[1.0, 1.0], [1.0, -1.0]])
-    left = without_each(axes) if one_stops else (axes,)
-    most = [held(each[..., None, None, :, :], both).most.max(axis=-1) for each in left]
-    return np.asarray(np.max(most, axis=0))
+    signed = momenta[..., None, :] * np.array([[1.0, 1.0], [1.0, -1.0]])
+    remaining = without_each(axes) if one_stops else (axes,)
+    busiest = [
+        held(wheels[..., None, None, :, :], signed).most.max(axis=-1) for wheels in remaining
+    ]
+    return np.asarray(np.max(busiest, axis=0))
 
 
 def rate_demands(
@@ -210,15 +222,17 @@ def rate_demands(
     """Demand of a change of rate on the device, about roll and pitch; empty without one."""
     if requirement.rate_change is None:
         return
-    at, one_stops = device.incidence, requirement.detection is not None
-    axes, top_speed = device.layout.axes(at)[:2], float(device.line.reserved().top_speed)
-    momenta = held_by_rate(requirement.rate_change, inertia, axes, one_stops=one_stops)
+    incidence, one_stops = device.incidence, requirement.detection is not None
+    axes, top_speed = device.layout.axes(incidence)[:2], float(device.line.reserved().top_speed)
+    momenta = rate_change_momenta(requirement.rate_change, inertia, axes, one_stops=one_stops)
     for axis, momentum in zip(AXES, momenta.tolist(), strict=True):
-        least, peak = momentum / top_speed, momentum / device.spin_inertia
-        yield TaskDemand(f"rate change, {axis}", at, least, None, None, peak, None)
+        spin_inertia, peak_speed = momentum / top_speed, momentum / device.spin_inertia
+        yield TaskDemand(
+            f"rate change, {axis}", incidence, spin_inertia, None, None, peak_speed, None
+        )
 
 
-def held_in_roll(
+def roll_cancelling_momentum(
     rate: float,
     inertia: TiltInertia,
     yaw_inertia: ArrayLike,
@@ -239,13 +253,15 @@ def held_in_roll(
     Returns:
         Momentum of each wheel [N m s], shape (...).
     """
-    rolled = turned_roll(inertia.diagonal[..., 0], yaw_inertia) * rate / UNDOES
-    left = (axes,) if requirement.detection is None else without_each(axes)
-    roll, _, yaw = np.moveaxis(np.min([np.abs(each).sum(axis=-1) for each in left], axis=0), -1, 0)
-    reached = roll > OUT_OF_REACH
-    most = np.where(reached, rolled / np.where(reached, roll, 1.0), np.inf)
-    left_alone = (yaw > OUT_OF_REACH) | ~(reached | requirement.incidence_is_free)
-    return np.where(left_alone | (rolled == 0.0), 0.0, most)
+    required = turned_roll(inertia.diagonal[..., 0], yaw_inertia) * rate / ROLL_CANCELLED
+    remaining = (axes,) if requirement.detection is None else without_each(axes)
+    roll, _, yaw = np.moveaxis(
+        np.min([np.abs(wheels).sum(axis=-1) for wheels in remaining], axis=0), -1, 0
+    )
+    controlled = roll > OUT_OF_REACH
+    momentum = np.where(controlled, required / np.where(controlled, roll, 1.0), np.inf)
+    not_required = (yaw > OUT_OF_REACH) | ~(controlled | requirement.incidence_is_free)
+    return np.where(not_required | (required == 0.0), 0.0, momentum)
 
 
 def column(inertia: TiltInertia) -> TiltInertia:

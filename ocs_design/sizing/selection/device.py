@@ -12,7 +12,7 @@ from ocs_design.device.records.selection import TaskDemand
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.requirement import Requirement
 from ocs_design.sizing.lightest_module import binding_limits
-from ocs_design.sizing.selection.demand import held_in_roll, rate_demands, wheel_task
+from ocs_design.sizing.selection.demand import rate_demands, roll_cancelling_momentum, wheel_task
 from ocs_design.sizing.selection.fixed_point import Solved
 from ocs_design.sizing.selection.problem import Candidate, SelectionProblem, inertia_at
 
@@ -31,7 +31,7 @@ def device_of(solved: Solved) -> Candidate:
         material=material,
         motor=motor,
         gear=gear,
-        line=drives.whole.take(0),
+        line=drives.full_line.take(0),
         supply=problem.supply,
         hub=problem.hub(motor, gear, problem.lightenings[drives.web[0]]),
         cuts=limits.cuts,
@@ -62,27 +62,29 @@ def with_demands(problem: SelectionProblem, device: Candidate) -> Candidate:
     requirement, line, spin = problem.requirement, device.line.reserved(), device.spin_inertia
     top_speed = float(line.top_speed)
     for maneuver in requirement.maneuvers:
-        at = device.incidence if maneuver.incidence is None else maneuver.incidence
-        inertia = inertia_at(problem, device, at)
-        task = _task_of(maneuver, requirement, device, inertia, at)
-        least = smallest_spin_inertia(task, line, device.drive.armature).item()
+        incidence = device.incidence if maneuver.incidence is None else maneuver.incidence
+        inertia = inertia_at(problem, device, incidence)
+        task = _task_of(maneuver, requirement, device, inertia, incidence)
+        least_inertia = smallest_spin_inertia(task, line, device.drive.armature).item()
         roll, yaw_inertia = requirement.reserve(maneuver).roll, device.total.inertia[2, 2]
-        held = held_in_roll(roll, inertia, yaw_inertia, device.layout.axes(at), requirement)
-        least = max(least, float(held) / top_speed)
+        momentum = roll_cancelling_momentum(
+            roll, inertia, yaw_inertia, device.layout.axes(incidence), requirement
+        )
+        least_inertia = max(least_inertia, float(momentum) / top_speed)
         load = task.load()
         reduced = load.reduced_inertia(spin, device.drive.armature)
-        own, initial_speed = load.started(line)
+        shifted_line, initial_speed = load.started(line)
         profile = slew_profile(
-            load.angle(spin), reduced, own, load.final_speed(spin), initial_speed
+            load.angle(spin), reduced, shifted_line, load.final_speed(spin), initial_speed
         )
-        peak = profile.peak_speed + load.initial_speed - initial_speed
+        peak_speed = profile.peak_speed + load.initial_speed - initial_speed
         demand = TaskDemand(
             source=maneuver.name,
-            incidence=at,
-            spin_inertia=least,
+            incidence=incidence,
+            spin_inertia=least_inertia,
             time_needed=profile.end.item(),
             time_given=np.asarray(task.duration).item(),
-            peak_speed=max(abs(load.initial_speed.item()), peak.item()),
+            peak_speed=max(abs(load.initial_speed.item()), peak_speed.item()),
             peak_torque=profile.peak_torque.item(),
         )
         demands.append(demand)
@@ -102,7 +104,9 @@ def _task_of(
     return wheel_task([maneuver], requirement, inertia, device.total.inertia[2:, 2], axes)
 
 
-def survived(problem: SelectionProblem, device: Candidate, detection: float) -> tuple[str, ...]:
+def maneuvers_survived(
+    problem: SelectionProblem, device: Candidate, detection: float
+) -> tuple[str, ...]:
     """Names of the maneuvers that the device does with any one wheel missing, by closed form.
 
     Conservatively, that wheel is assumed missing from the start, and the others to respond only
@@ -110,15 +114,17 @@ def survived(problem: SelectionProblem, device: Candidate, detection: float) -> 
     """
     requirement, names = replace(problem.requirement, detection=detection, reserves={}), []
     for maneuver in requirement.maneuvers:
-        at = device.incidence if maneuver.incidence is None else maneuver.incidence
-        task = _task_of(maneuver, requirement, device, inertia_at(problem, device, at), at)
+        incidence = device.incidence if maneuver.incidence is None else maneuver.incidence
+        task = _task_of(
+            maneuver, requirement, device, inertia_at(problem, device, incidence), incidence
+        )
         demand = spin_demand(task, device.line.reserved(), device.drive.armature)
         with np.errstate(invalid="ignore"):
-            can = capability(demand, np.asarray(device.spin_inertia)).sweep
-        if (can >= demand.sweep * (1.0 - _ROUNDED)).all():
+            capacity = capability(demand, np.asarray(device.spin_inertia)).sweep
+        if (capacity >= demand.sweep * (1.0 - _ROUNDING)).all():
             names.append(maneuver.name)
     return tuple(names)
 
 
-_ROUNDED = 1e-6
+_ROUNDING = 1e-6
 """Relative shortfall that counts as rounding for a device sized exactly for the demand."""

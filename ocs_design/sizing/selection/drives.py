@@ -90,31 +90,31 @@ class Drives(Table):
     Attributes:
         motor, gear, web: indices in the problem's motors, gears and lightenings.
         seat: mounting of the motor.
-        whole: voltage line and limits at the wheel, without reserve.
+        full_line: voltage line and limits at the wheel, without reserve.
         rotor_share: rotor's share of the spin inertia [kg m^2].
         armature: inertia that the motor accelerates beyond the spin inertia [kg m^2].
         hub: of the wheel.
-        web_least, web_most: bounds of the density of web and hub [kg/m^3], over all materials of
-            the problem until one is chosen.
+        web_density_min, web_density_max: bounds of the density of web and hub [kg/m^3], over all
+            materials of the problem until one is chosen.
     """
 
     motor: NDArray[np.intp]
     gear: NDArray[np.intp]
     web: NDArray[np.intp]
     seat: Seat[FloatArray]
-    whole: DriveLine
+    full_line: DriveLine
     rotor_share: FloatArray
     armature: FloatArray
     hub: HubFigures[FloatArray]
-    web_least: FloatArray
-    web_most: FloatArray
+    web_density_min: FloatArray
+    web_density_max: FloatArray
 
     def __len__(self) -> int:
         return self.motor.size
 
-    def of_webs(self, density: FloatArray) -> "Drives":
+    def with_web_densities(self, density: FloatArray) -> "Drives":
         """Drives with webs and hubs of these densities [kg/m^3]."""
-        return replace(self, web_least=density, web_most=density)
+        return replace(self, web_density_min=density, web_density_max=density)
 
     @property
     def hub_mass(self) -> FloatArray:
@@ -122,7 +122,7 @@ class Drives(Table):
         return np.minimum(*self._of_hub(self.hub.volume))
 
     @property
-    def hub_mass_most(self) -> FloatArray:
+    def hub_mass_max(self) -> FloatArray:
         """Largest mass of the wheel's hub beyond its web [kg]."""
         return np.maximum(*self._of_hub(self.hub.volume))
 
@@ -143,18 +143,18 @@ class Drives(Table):
         return module_size(outer_radius, height, seat.behind, seat.reach, foot_plate=plate)
 
     @property
-    def beside_rim(self) -> FloatArray:
+    def inertia_beside_rim(self) -> FloatArray:
         """Largest part of the spin inertia that rim and web need not provide [kg m^2]."""
         return self.rotor_share + np.maximum(*self._of_hub(self.hub.spread))
 
     def _of_hub(self, figure: FloatArray) -> tuple[FloatArray, FloatArray]:
         """A figure per density at either density; negative where the hub replaces more web."""
-        return figure * self.web_least, figure * self.web_most
+        return figure * self.web_density_min, figure * self.web_density_max
 
     @property
     def line(self) -> DriveLine:
         """Voltage lines and limits that a design may use."""
-        return self.whole.reserved()
+        return self.full_line.reserved()
 
     @property
     def top_speed(self) -> FloatArray:
@@ -164,4 +164,4 @@ class Drives(Table):
     @property
     def overspeed(self) -> FloatArray:
         """Speed at which the hoop stress of a rim is limited [rad/s]."""
-        return OVERSPEED * np.asarray(self.whole.top_speed)
+        return OVERSPEED * np.asarray(self.full_line.top_speed)

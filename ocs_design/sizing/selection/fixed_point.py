@@ -22,13 +22,13 @@ from ocs_design.sizing.bound.rim_problem import smallest_rim_inertia
 from ocs_design.sizing.lightest_module import ModuleShape
 from ocs_design.sizing.module_radii import smallest_radius
 from ocs_design.sizing.selection.candidates import Candidates, Guess
-from ocs_design.sizing.selection.demand import margins_of, worst
+from ocs_design.sizing.selection.demand import margins_of, worst_case
 
 _ITERATIONS_MAX = 40
 _POINTS = np.linspace(-1.0, 1.0, 5)
 """Incidences that one iteration tries, relative to the width around the best so far."""
 
-_CLOSE_IN = 0.55
+_NARROWING = 0.55
 """Factor on the width per iteration: the next incidences reach slightly beyond the best one's
 neighbours."""
 
@@ -44,8 +44,8 @@ _SPANS = (1.0, 0.2)
 neighbours."""
 
 _RADII = 13
-_BEYOND, _NOTHING = 1e9, 1e-9
-"""Larger than any spin inertia [kg m^2] and mass [kg], and smaller than any margin."""
+_HUGE, _TINY = 1e9, 1e-9
+"""A value above any spin inertia [kg m^2] and mass [kg], and one below any margin."""
 
 
 class Design(NamedTuple):
@@ -126,7 +126,7 @@ class Solved(Table):
     @property
     def score(self) -> FloatArray:
         """Mass [kg], or a penalty where it is not feasible that falls as the margin grows."""
-        penalty = _BEYOND / np.maximum(self.point.margin, _NOTHING)
+        penalty = _HUGE / np.maximum(self.point.margin, _TINY)
         return np.where(self.point.feasible, self.mass, penalty)
 
 
@@ -138,24 +138,26 @@ def solve_stepwise(candidates: Candidates, guess: Guess) -> Iterator[Solved]:
     """
     start = np.maximum(guess.spin_inertia, candidates.least_spin_inertia)
     # A larger wheel than the starting one may be needed, possibly of larger radius.
-    rim = np.maximum(start - candidates.drives.beside_rim, smallest_rim_inertia(candidates.limits))
+    rim = np.maximum(
+        start - candidates.drives.inertia_beside_rim, smallest_rim_inertia(candidates.limits)
+    )
     high = candidates.problem.envelope.outer_radius_max
     low = np.minimum(smallest_radius(rim, candidates.limits), high)
     radius, half, angle = np.sqrt(low * high), np.log(high / low) / 2.0, guess.angle
-    each, best = candidates.repeat(_RADII), None
+    copies, best = candidates.repeat(_RADII), None
     for span in _SPANS:
         steps = span * np.linspace(-1.0, 1.0, _RADII)
         radii = radius[:, None] * np.exp(np.outer(half, steps))
         angles, widths = np.repeat([angle, span * guess.width], _RADII, axis=1)
         design = Design(radii.ravel(), angles, widths)
-        point = fixed_point(each, np.repeat(start, _RADII), design, _ROUGH)
-        score = Solved(each, guess.repeat(_RADII), point).score.reshape(-1, _RADII)
+        point = fixed_point(copies, np.repeat(start, _RADII), design, _ROUGH)
+        score = Solved(copies, guess.repeat(_RADII), point).score.reshape(-1, _RADII)
         rows = np.arange(len(candidates)) * _RADII + score.argmin(axis=1)
-        found = Solved(candidates, guess, point.take(rows))
+        solved = Solved(candidates, guess, point.take(rows))
         if best is not None:
-            better = np.flatnonzero(found.score < best.score)
-            found = best.put(better, found.take(better))
-        best, radius, angle = found, found.point.radius, found.point.angle
+            improved = np.flatnonzero(solved.score < best.score)
+            solved = best.put(improved, solved.take(improved))
+        best, radius, angle = solved, solved.point.radius, solved.point.angle
         yield best
     assert best is not None, "there are spans"
     design = Design(best.point.radius, best.point.angle, np.zeros_like(start))
@@ -172,7 +174,7 @@ class _Step(NamedTuple):
 
     angle: FloatArray
     width: FloatArray
-    asked: FloatArray
+    demand: FloatArray
     margin: FloatArray
 
 
@@ -192,8 +194,8 @@ def fixed_point(
     spin = start = np.maximum(start, candidates.least_spin_inertia)
     if specified is not None:
         spin = np.full_like(spin, specified)
-    radius, narrow = design.radius, tolerance.width * design.width
-    last_spin = last_asked = np.zeros_like(spin)
+    radius, width_min = design.radius, tolerance.width * design.width
+    last_spin = last_demand = np.zeros_like(spin)
     best_spin, best_margin = spin, np.zeros_like(spin)
     iterations = 0
     while True:
@@ -201,22 +203,22 @@ def fixed_point(
         shapes = candidates.shapes_at(spin, radius)
         step = _step(candidates, spin, shapes, design)
         design = design._replace(angle=step.angle, width=step.width)
-        asked = spin if specified is not None else step.asked
-        better = step.margin > best_margin
-        best_spin = np.where(better, spin, best_spin)
-        best_margin = np.where(better, step.margin, best_margin)
-        residual = np.abs(asked / spin - 1.0)
-        following, runaway = _along_secant(spin, asked, last_spin, last_asked)
-        possible = (shapes.mass > 0.0) & np.isfinite(asked) & ~runaway
-        arrived = possible & (residual <= tolerance.residual)
-        ended = (design.width <= narrow) & (arrived | ~possible)
-        if ended.all() or iterations == _ITERATIONS_MAX:
+        demand = spin if specified is not None else step.demand
+        improved = step.margin > best_margin
+        best_spin = np.where(improved, spin, best_spin)
+        best_margin = np.where(improved, step.margin, best_margin)
+        residual = np.abs(demand / spin - 1.0)
+        secant_estimate, diverges = _along_secant(spin, demand, last_spin, last_demand)
+        possible = (shapes.mass > 0.0) & np.isfinite(demand) & ~diverges
+        converged = possible & (residual <= tolerance.residual)
+        done = (design.width <= width_min) & (converged | ~possible)
+        if done.all() or iterations == _ITERATIONS_MAX:
             break
-        last_spin, last_asked = spin, asked
+        last_spin, last_demand = spin, demand
         # At a poor incidence the demand is too high: restart once the incidence is better.
-        spin = np.where(ended, spin, np.where(possible, following, start))
+        spin = np.where(done, spin, np.where(possible, secant_estimate, start))
     # The margin is uncertain by about the residual.
-    solved = ended & arrived & (step.margin >= 1.0 - 10.0 * tolerance.residual)
+    solved = done & converged & (step.margin >= 1.0 - 10.0 * tolerance.residual)
     spin = np.where(solved, spin, best_spin)
     return FixedPoint(
         spin_inertia=spin,
@@ -235,30 +237,30 @@ def _step(candidates: Candidates, spin: FloatArray, shapes: ModuleShape, design:
 
     Maneuvers at an incidence of their own do not affect the incidence of the design.
     """
-    problem, whole = candidates.problem, candidates.on_robot(spin, shapes)
+    problem, composite = candidates.problem, candidates.on_robot(spin, shapes)
     offsets = design.width[:, None] * (_POINTS if design.width.any() else np.zeros(1))
     angles = np.clip(design.angle[:, None] + offsets, 0.0, np.pi / 2.0)
-    by_design, turned = margins_of(problem.requirement, candidates.drives, whole, spin, angles)
-    tried, fixed = worst(by_design, angles.shape), worst(turned, (spin.size, 1))
+    at_design, at_own = margins_of(problem.requirement, candidates.drives, composite, spin, angles)
+    varied, fixed = worst_case(at_design, angles.shape), worst_case(at_own, (spin.size, 1))
     # The least demand; where nothing suffices, the closest. Where there is no demand, all
     # incidences are equal, and the middle one is kept.
-    penalty = _BEYOND / np.maximum(tried.margin, _NOTHING)
-    score = np.where(np.isfinite(tried.following), tried.following, penalty)
+    penalty = _HUGE / np.maximum(varied.margin, _TINY)
+    score = np.where(np.isfinite(varied.improved), varied.improved, penalty)
     score[:, score.shape[1] // 2] *= 1.0 - 1e-15
     best, row = np.argmin(score, axis=1), np.arange(spin.size)
     chosen, last = angles[row, best], offsets.shape[1] - 1
     inside = ((best > 0) & (best < last)) | (chosen == 0.0) | (chosen == np.pi / 2.0)
-    asked = np.maximum(tried.following[row, best], fixed.following[:, 0])
+    demand = np.maximum(varied.improved[row, best], fixed.improved[:, 0])
     return _Step(
         angle=chosen,
-        width=np.where(inside | ~np.isfinite(asked), _CLOSE_IN, 1.0) * design.width,
-        asked=np.maximum(asked, candidates.least_spin_inertia),
-        margin=np.minimum(tried.margin[row, best], fixed.margin[:, 0]),
+        width=np.where(inside | ~np.isfinite(demand), _NARROWING, 1.0) * design.width,
+        demand=np.maximum(demand, candidates.least_spin_inertia),
+        margin=np.minimum(varied.margin[row, best], fixed.margin[:, 0]),
     )
 
 
 def _along_secant(
-    spin: FloatArray, asked: FloatArray, last_spin: FloatArray, last_asked: FloatArray
+    spin: FloatArray, demand: FloatArray, last_spin: FloatArray, last_demand: FloatArray
 ) -> tuple[FloatArray, NDArray[np.bool_]]:
     """Spin inertia that meets the demand, by a secant of the last two; and whether none does.
 
@@ -267,10 +269,10 @@ def _along_secant(
     iterations still show how Newton's method progressed.
     """
     with np.errstate(divide="ignore", invalid="ignore"):
-        steepness = (asked - last_asked) / (spin - last_spin)
-        near = np.abs(asked / last_spin - 1.0) < _NEAR
-        steady = (last_spin > 0.0) & (steepness > 0.0)
-        steady &= steepness < np.where(near, _STEEPEST_NEAR, _STEEPEST)
-        following = spin + (asked - spin) / np.where(steady, 1.0 - steepness, 1.0)
-        runaway = near & (steepness > 1.0) & (asked > spin) & (spin > last_spin)
-    return following, runaway
+        steepness = (demand - last_demand) / (spin - last_spin)
+        near = np.abs(demand / last_spin - 1.0) < _NEAR
+        trusted = (last_spin > 0.0) & (steepness > 0.0)
+        trusted &= steepness < np.where(near, _STEEPEST_NEAR, _STEEPEST)
+        estimate = spin + (demand - spin) / np.where(trusted, 1.0 - steepness, 1.0)
+        diverges = near & (steepness > 1.0) & (demand > spin) & (spin > last_spin)
+    return estimate, diverges

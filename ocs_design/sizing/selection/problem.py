@@ -126,15 +126,15 @@ class SelectionProblem:
         for name in ("motors", "gears", "materials"):
             if not getattr(self, name):
                 raise UsageError(f"there are no {name} to choose from")
-        asked = self.requirement
-        if not any((asked.maneuvers, asked.rate_change, asked.spin_inertia)):
+        requirement = self.requirement
+        if not any((requirement.maneuvers, requirement.rate_change, requirement.spin_inertia)):
             raise UsageError(
                 "nothing is required of the wheels",
                 hint="Specify a rate change, a maneuver, or a spin inertia.",
             )
         speed = 1.0 if self.wheel_speed_max is None else self.wheel_speed_max
-        for each in self.materials:
-            check_limits(self.envelope, each, speed)
+        for material in self.materials:
+            check_limits(self.envelope, material, speed)
 
 
 def limits_of(problem: SelectionProblem) -> dict[Limit, float]:
@@ -171,7 +171,7 @@ def with_time(problem: SelectionProblem, factor: float, names: set[str]) -> Sele
     """The problem with `factor` times the time for the maneuvers of these names."""
     requirement, height = problem.requirement, problem.requirement.standing_height
     longer = requirement.changed(
-        lambda each: each.slower(factor, height) if each.name in names else each
+        lambda maneuver: maneuver.slower(factor, height) if maneuver.name in names else maneuver
     )
     return replace(problem, requirement=longer)
 
@@ -281,7 +281,7 @@ class Candidate(DrivenWheel):
     def plate_mass(self) -> float:
         """Mass of plate and pedestals; 0 without any [kg]."""
         plate = 0.0 if self.plate is None else self.plate.mass
-        return plate + sum(each.mass for each in self.pedestals)
+        return plate + sum(pedestal.mass for pedestal in self.pedestals)
 
     @property
     def printed_mass(self) -> float:
@@ -305,9 +305,13 @@ class Candidate(DrivenWheel):
 
         Among equals the first, so that rounding does not decide.
         """
-        most = max((demand.spin_inertia for demand in self.demands), default=0.0)
-        asked = (each.source for each in self.demands if each.spin_inertia >= most * (1.0 - 1e-9))
-        return "" if most < self.spin_inertia * (1.0 - 1e-6) else next(asked, "")
+        largest = max((demand.spin_inertia for demand in self.demands), default=0.0)
+        drivers = (
+            demand.source
+            for demand in self.demands
+            if demand.spin_inertia >= largest * (1.0 - 1e-9)
+        )
+        return "" if largest < self.spin_inertia * (1.0 - 1e-6) else next(drivers, "")
 
 
 def of_parts(problem: SelectionProblem, *devices: Candidate) -> SelectionProblem:
@@ -337,13 +341,13 @@ def lightest_first(
     Args:
         preference: sorts entries whose masses differ by less than `SAME_MASS`, smallest first.
     """
-    alike, ordered = list[Entry](), list[Entry]()
+    equal, ordered = list[Entry](), list[Entry]()
     for entry in sorted(entries, key=mass):
-        if alike and mass(entry) > mass(alike[0]) * (1.0 + SAME_MASS):
-            ordered += sorted(alike, key=preference)
-            alike = []
-        alike.append(entry)
-    return ordered + sorted(alike, key=preference)
+        if equal and mass(entry) > mass(equal[0]) * (1.0 + SAME_MASS):
+            ordered += sorted(equal, key=preference)
+            equal = []
+        equal.append(entry)
+    return ordered + sorted(equal, key=preference)
 
 
 def devices_by_mass(devices: Iterable[Candidate]) -> list[Candidate]:

@@ -37,7 +37,7 @@ from ocs_design.sizing.selection.problem import (
 _FEASIBLE = 1e-10
 """Relative violation of a limit that counts as rounding."""
 
-_LEAST, _MOST = 1e-6, 1e6
+_RATIO_MIN, _RATIO_MAX = 1e-6, 1e6
 """Range to which the limits' ratios are clipped."""
 
 _DIFFERENCE = 1e-6
@@ -53,7 +53,7 @@ _PATIENCE = 12
 _PENALTY = 10.0
 """Logarithm of the mass per unit of violation, to measure progress: prices are about one."""
 
-_AROUND = 0.7
+_LARGEST_CHANGE = 0.7
 """Largest change of the logarithms of radius, height and wall."""
 
 
@@ -88,26 +88,26 @@ def lightest(programme: "Programme", start: FloatArray) -> Optimum:
     # The import takes longer than a selection.
     from scipy.optimize import Bounds, NonlinearConstraint, minimize  # noqa: PLC0415
 
-    held, angle = programme.holds_incidence(start), float(start[-1])
-    turn = (angle, angle) if held else (0.0, np.pi / 2.0)
-    low: FloatArray = np.append(start[:3] - _AROUND, turn[0])
-    high: FloatArray = np.append(start[:3] + _AROUND, turn[1])
+    fixed_incidence, angle = programme.holds_incidence(start), float(start[-1])
+    angle_range = (angle, angle) if fixed_incidence else (0.0, np.pi / 2.0)
+    low: FloatArray = np.append(start[:3] - _LARGEST_CHANGE, angle_range[0])
+    high: FloatArray = np.append(start[:3] + _LARGEST_CHANGE, angle_range[1])
 
-    best, cost, idle = Optimum(start, np.inf, np.inf), np.inf, 0
+    best, best_merit, idle = Optimum(start, np.inf, np.inf), np.inf, 0
 
     # The last point is cached: SLSQP requests its value, slope and limits separately.
     @lru_cache(maxsize=1)
     def evaluation(point: bytes) -> _Evaluation:
-        nonlocal best, cost, idle
-        found = programme.evaluation(np.frombuffer(point), low, high)
-        missed = np.append(-found.limits, found.limits[equal])
-        here = Optimum(np.frombuffer(point), found.value, max(float(missed.max()), 0.0))
-        best = min(best, here, key=lambda seen: (max(seen.violation, _FEASIBLE), seen.value))
-        now = here.value + _PENALTY * here.violation
-        cost, idle = (now, 0) if now < cost - _DIGITS else (cost, idle + 1)
+        nonlocal best, best_merit, idle
+        evaluated = programme.evaluation(np.frombuffer(point), low, high)
+        violations = np.append(-evaluated.limits, evaluated.limits[equal])
+        current = Optimum(np.frombuffer(point), evaluated.value, max(float(violations.max()), 0.0))
+        best = min(best, current, key=lambda seen: (max(seen.violation, _FEASIBLE), seen.value))
+        merit = current.value + _PENALTY * current.violation
+        best_merit, idle = (merit, 0) if merit < best_merit - _DIGITS else (best_merit, idle + 1)
         if idle > _PATIENCE:
             raise _StalledError
-        return found
+        return evaluated
 
     def at(point: FloatArray) -> _Evaluation:
         return evaluation(point.tobytes())
@@ -118,11 +118,11 @@ def lightest(programme: "Programme", start: FloatArray) -> Optimum:
     def slope(point: FloatArray) -> FloatArray:
         return at(point).slope
 
-    def between(rows: slice, most: float) -> NonlinearConstraint:
+    def constraint(rows: slice, upper: float) -> NonlinearConstraint:
         return NonlinearConstraint(
             lambda point: at(point).limits[rows],
             0.0,
-            most,
+            upper,
             jac=lambda point: at(point).slopes[rows],
         )
 
@@ -135,7 +135,10 @@ def lightest(programme: "Programme", start: FloatArray) -> Optimum:
             jac=slope,
             method="SLSQP",
             bounds=Bounds(low, high),
-            constraints=[between(unequal, np.inf), *([between(equal, 0.0)] if specified else [])],
+            constraints=[
+                constraint(unequal, np.inf),
+                *([constraint(equal, 0.0)] if specified else []),
+            ],
             options={"maxiter": _ITERATIONS_MAX, "ftol": _DIGITS},
         )
     return best
@@ -176,27 +179,29 @@ class Programme:
         Where a spin inertia is specified, the first constraint is an equality.
         """
         candidates, shapes = self.candidates.repeat(len(points)), self._shapes(points)
-        spin, whole = self._on_robot(candidates, shapes)
+        spin, composite = self._on_robot(candidates, shapes)
         requirement = candidates.problem.requirement
-        by_design, turned = margins_of(requirement, candidates.drives, whole, spin, points[:, 3:])
-        margins = [part.margin[:, 0] for part in (*by_design, *turned)]
+        at_design, at_own = margins_of(
+            requirement, candidates.drives, composite, spin, points[:, 3:]
+        )
+        margins = [part.margin[:, 0] for part in (*at_design, *at_own)]
         # Ratios of the rims' limits to their values.
-        at = self.candidates.limits
+        rim = self.candidates.limits
         inner, outer, height = shapes.inner_radius, shapes.outer_radius, shapes.height
-        weight, bore_weight = at.hoop_weights
+        weight, bore_weight = rim.hoop_weights
         pairs = (
-            (outer, at.outer_radius_max),
-            (height, at.height_max),
-            (shapes.rim_mass, at.mass_max),
-            (weight * outer**2 + bore_weight * inner**2, at.stretch_max),
-            (at.outer_radius_min, outer),
-            (at.height_min, height),
-            (at.wall_min, outer - inner),
-            (np.maximum(at.inner_radius_min, BORE_SHARE * outer), inner),
+            (outer, rim.outer_radius_max),
+            (height, rim.height_max),
+            (shapes.rim_mass, rim.mass_max),
+            (weight * outer**2 + bore_weight * inner**2, rim.stretch_max),
+            (rim.outer_radius_min, outer),
+            (rim.height_min, height),
+            (rim.wall_min, outer - inner),
+            (np.maximum(rim.inner_radius_min, BORE_SHARE * outer), inner),
         )
         with np.errstate(divide="ignore"):
-            room = [np.broadcast_to(most / value, outer.shape) for value, most in pairs]
-        limits = np.log(np.clip([*margins, *room], _LEAST, _MOST))
+            rim_margins = [np.broadcast_to(most / value, outer.shape) for value, most in pairs]
+        limits = np.log(np.clip([*margins, *rim_margins], _RATIO_MIN, _RATIO_MAX))
         if requirement.spin_inertia is not None:
             limits = np.concatenate([np.log(spin / requirement.spin_inertia)[None], limits])
         return np.log(candidates.drives.mass + shapes.mass), limits.T
@@ -209,11 +214,11 @@ class Programme:
         n, width = point.size, _DIFFERENCE * np.eye(point.size)
         ahead, behind = np.minimum(point + width, high), np.maximum(point - width, low)
         values, limits = self(np.concatenate([point[None], ahead, behind]))
-        apart = np.diag(ahead - behind)
+        steps = np.diag(ahead - behind)
         # A fixed variable has no slope.
-        over = np.where(apart > 0.0, apart, np.inf)
-        slope = (values[1 : n + 1] - values[n + 1 :]) / over
-        slopes = ((limits[1 : n + 1] - limits[n + 1 :]) / over[:, None]).T
+        divisors = np.where(steps > 0.0, steps, np.inf)
+        slope = (values[1 : n + 1] - values[n + 1 :]) / divisors
+        slopes = ((limits[1 : n + 1] - limits[n + 1 :]) / divisors[:, None]).T
         return _Evaluation(float(values[0]), limits[0], slope, slopes)
 
     def holds_incidence(self, point: FloatArray) -> bool:
@@ -223,27 +228,27 @@ class Programme:
         have to meet the demand of the coupling about that axis with hardly any leverage.
         """
         axes, angle = self.candidates.problem.layout.axes(point[3]), point[None, 3:]
-        _, whole = self._on_robot(self.candidates, self._shapes(point[None]))
-        blind = np.abs(axes[:2]).max(axis=1) <= OUT_OF_REACH
-        alone = bool(blind.any() and whole.at(angle)[0].product.any())
-        return self.candidates.problem.incidence is not None or alone
+        _, composite = self._on_robot(self.candidates, self._shapes(point[None]))
+        uncontrolled = np.abs(axes[:2]).max(axis=1) <= OUT_OF_REACH
+        isolated = bool(uncontrolled.any() and composite.at(angle)[0].product.any())
+        return self.candidates.problem.incidence is not None or isolated
 
     def fixed_point(self, point: FloatArray) -> FixedPoint:
         """A single point at which all limits hold, as a fixed point."""
         shapes, angle = self._shapes(point[None]), point[3:]
-        spin, whole = self._on_robot(self.candidates, shapes)
+        spin, composite = self._on_robot(self.candidates, shapes)
         requirement = self.candidates.problem.requirement
-        by_design, turned = margins_of(
-            requirement, self.candidates.drives, whole, spin, angle[:, None]
+        at_design, at_own = margins_of(
+            requirement, self.candidates.drives, composite, spin, angle[:, None]
         )
-        parts = [*by_design, *turned]
+        parts = [*at_design, *at_own]
         margin = np.min([part.margin[:, 0] for part in parts], axis=0, initial=np.inf)
-        asked = np.max(
-            [self.candidates.least_spin_inertia, *(part.following[:, 0] for part in parts)], axis=0
+        demand = np.max(
+            [self.candidates.least_spin_inertia, *(part.improved[:, 0] for part in parts)], axis=0
         )
         # Where no larger wheel would do either, a margin slightly below one due to rounding
         # requests an infinite wheel.
-        missed = np.where(np.isfinite(asked), np.abs(asked / spin - 1.0), np.abs(margin - 1.0))
+        residual = np.where(np.isfinite(demand), np.abs(demand / spin - 1.0), np.abs(margin - 1.0))
         return FixedPoint(
             spin_inertia=spin,
             radius=shapes.outer_radius,
@@ -251,7 +256,7 @@ class Programme:
             shapes=shapes,
             feasible=np.ones(1, dtype=np.bool_),
             margin=margin,
-            residual=np.zeros(1) if requirement.spin_inertia is not None else missed,
+            residual=np.zeros(1) if requirement.spin_inertia is not None else residual,
             iterations=np.zeros(1, dtype=np.intp),
         )
 
@@ -264,7 +269,7 @@ class Programme:
         cut = limits.cuts.axial_inertia(shapes.inner_radius, shapes.outer_radius, 1.0)
         rim = (cylinder_spin_inertia(*dimensions, 1.0) - cut) * np.asarray(limits.density)
         web = web_inertia(limits, shapes.inner_radius)
-        spin = rim + web + candidates.drives.beside_rim
+        spin = rim + web + candidates.drives.inertia_beside_rim
         return spin, candidates.on_robot(spin, shapes)
 
     def _shapes(self, points: FloatArray) -> ModuleShape:
@@ -291,34 +296,36 @@ def coordinates(outer: float, height: float, inner: float, angle: float) -> Floa
 _UNITS = {STRESS: 0.1, TIME: 0.01, TOP_SPEED: 100.0}
 """Realistic changes in the limit's own unit; all other limits change by one."""
 
-_LEAST_LEFT = 0.5
+_LEAST_FRACTION = 0.5
 """Least fraction of a limit that is left where it is loosened downwards."""
 
 _FEASIBLE_TO_PRICE = 1e-6
 """Relative violation of a limit that is tolerated in a price."""
 
-_HOLDS, _MOVES = 1e-6, 1e-9
+_ACTIVE, _MOVED = 1e-6, 1e-9
 """Slack of an active limit, and change of it that counts as moved; logarithms of ratios."""
 
 
 def mass_prices(problem: SelectionProblem, chosen: Candidate) -> Iterator[PriceRecord]:
     """Prices of all specified limits, with the same motor, gear and material."""
-    alone = of_parts(problem, chosen)
+    same_parts = of_parts(problem, chosen)
     sizes = chosen.outer_radius, chosen.height, chosen.inner_radius
     start = coordinates(*sizes, chosen.incidence)
-    (before,), (held,) = _programme(alone)(start[None])
+    (before,), (slack,) = _programme(same_parts)(start[None])
     for limit, value in limits_of(problem).items():
         if not (np.isfinite(value) and value > 0.0):
             continue
         step = _UNITS.get(limit, 1.0) / limit.per_si
-        changed = value + step if limit.loosens_upwards else max(value - step, _LEAST_LEFT * value)
-        looser = _programme(with_limit(alone, limit, changed))
-        _, (moved,) = looser(start[None])
+        changed = (
+            value + step if limit.loosens_upwards else max(value - step, _LEAST_FRACTION * value)
+        )
+        loosened = _programme(with_limit(same_parts, limit, changed))
+        _, (changed_slack,) = loosened(start[None])
         change = 0.0
-        if np.any((held < _HOLDS) & (np.abs(moved - held) > _MOVES)):
-            found = lightest(looser, start)
-            if found.violation <= _FEASIBLE_TO_PRICE:
-                change = min(float(np.expm1(found.value - before)), 0.0)
+        if np.any((slack < _ACTIVE) & (np.abs(changed_slack - slack) > _MOVED)):
+            optimum = lightest(loosened, start)
+            if optimum.violation <= _FEASIBLE_TO_PRICE:
+                change = min(float(np.expm1(optimum.value - before)), 0.0)
         yield PriceRecord(
             limit=limit.name,
             value=value,
@@ -327,7 +334,7 @@ def mass_prices(problem: SelectionProblem, chosen: Candidate) -> Iterator[PriceR
         )
 
 
-def _programme(alone: SelectionProblem) -> Programme:
+def _programme(problem: SelectionProblem) -> Programme:
     """Programme of a problem with a single motor, gear and material."""
     first = np.zeros(1, dtype=np.intp)
-    return Programme(Candidates(alone, drives_of(alone, first.repeat(2)[None]), first))
+    return Programme(Candidates(problem, drives_of(problem, first.repeat(2)[None]), first))

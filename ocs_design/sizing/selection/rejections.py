@@ -31,8 +31,8 @@ from ocs_design.sizing.selection.candidates import Candidates, drives_of
 from ocs_design.sizing.selection.demand import (
     column,
     columns,
-    held_in_roll,
-    needed_by_rate,
+    rate_change_spin_inertia,
+    roll_cancelling_momentum,
     wheel_task,
 )
 from ocs_design.sizing.selection.drives import Drives
@@ -98,29 +98,31 @@ class Refused(Infeasible):
         return any(kept.short for kept in self.problem.requirement.reserves.values())
 
 
-def rejections(found: PairBounds, ranked: Collection[int]) -> tuple[Rejection, ...]:
+def rejections(bounds: PairBounds, ranked: Collection[int]) -> tuple[Rejection, ...]:
     """Reasons for all motors except the ranked indices, in the order of the problem."""
     reasons: dict[int, Rejection | None] = {}
-    for index, motor in enumerate(found.problem.motors):
+    for index, motor in enumerate(bounds.problem.motors):
         if index in ranked:
             continue
-        if not found.known[index].any():
-            gears = found.problem.gears
+        if not bounds.known[index].any():
+            gears = bounds.problem.gears
             fewest = min((missing_figures(motor, gear) for gear in gears), key=len, default=())
             detail = f"its source gives no {', '.join(fewest)}"
             reasons[index] = Rejection(motor.name, Reason.FIGURES, detail, np.inf)
-        elif np.isfinite(found.least[index, _lightest_gear(found, index)]):
-            detail = _at_least(found, index)
+        elif np.isfinite(bounds.least[index, _lightest_gear(bounds, index)]):
+            detail = _mass_bound_text(bounds, index)
             reasons[index] = Rejection(motor.name, Reason.HEAVIER, detail, 0.0)
         else:
             reasons[index] = None
-    unable = _unable(found, [index for index, reason in reasons.items() if reason is None])
+    unable = _infeasible_motors(
+        bounds, [index for index, reason in reasons.items() if reason is None]
+    )
     return tuple(reason or unable[index] for index, reason in reasons.items())
 
 
-def _at_least(found: PairBounds, motor: int) -> str:
-    gear = int(np.argmin(found.least[motor]))
-    return f"{1e3 * found.least[motor, gear]:.0f} g at least{_with_gear(found.problem, gear)}"
+def _mass_bound_text(bounds: PairBounds, motor: int) -> str:
+    gear = int(np.argmin(bounds.least[motor]))
+    return f"{1e3 * bounds.least[motor, gear]:.0f} g at least{_with_gear(bounds.problem, gear)}"
 
 
 def _with_gear(problem: SelectionProblem, gear: int) -> str:
@@ -131,20 +133,20 @@ def _with_gear(problem: SelectionProblem, gear: int) -> str:
     return " (without a gear)" if chosen == DIRECT else f" ({chosen.name})"
 
 
-def _lightest_gear(found: PairBounds, motor: int) -> int:
+def _lightest_gear(bounds: PairBounds, motor: int) -> int:
     """Index of the lightest gear with known data for this motor; usually direct drive."""
-    mass = np.array([gear.mass for gear in found.problem.gears])
-    return int(np.argmin(np.where(found.known[motor], mass, np.inf)))
+    mass = np.array([gear.mass for gear in bounds.problem.gears])
+    return int(np.argmin(np.where(bounds.known[motor], mass, np.inf)))
 
 
-def promising_gears(found: PairBounds, motor: int) -> Iterable[int]:
+def promising_gears(bounds: PairBounds, motor: int) -> Iterable[int]:
     """The lightest gear; if none will do, also those of the smallest wheel and most torque."""
-    lightest = _lightest_gear(found, motor)
-    if np.isfinite(found.least[motor]).any():
+    lightest = _lightest_gear(bounds, motor)
+    if np.isfinite(bounds.least[motor]).any():
         return {lightest}
-    known = np.flatnonzero(found.known[motor]).tolist()
-    gears = found.problem.gears
-    wheel = min(known, key=lambda gear: float(found.spin_inertia[motor, gear]))
+    known = np.flatnonzero(bounds.known[motor]).tolist()
+    gears = bounds.problem.gears
+    wheel = min(known, key=lambda gear: float(bounds.spin_inertia[motor, gear]))
     gain = max(known, key=lambda gear: gears[gear].ratio * gears[gear].efficiency)
     return {lightest, wheel, gain}
 
@@ -157,9 +159,9 @@ class RequirementPart(NamedTuple):
         incidence: at which it is done [rad], shape (k,).
         time: time given [s]; inf: no limit.
         needed: smallest spin inertia that does it [kg m^2], shape (n, k); inf: none does.
-        late: ratio of the time with the largest wheel to that given, shape (n, k), or of the
-            required momentum to that of the largest wheel, or of a tilt to balance to the tilt that
-            this wheel can recover.
+        demand_ratio: ratio of the time with the largest wheel to that given, shape (n, k), or of
+            the required momentum to that of the largest wheel, or of a tilt to balance to the tilt
+            that this wheel can recover.
         reason: see `SlewReason`, shape (n, k).
     """
 
@@ -167,7 +169,7 @@ class RequirementPart(NamedTuple):
     incidence: FloatArray
     time: float
     needed: FloatArray
-    late: FloatArray
+    demand_ratio: FloatArray
     reason: NDArray[np.int_]
 
     def at(self, row: int, angle: int) -> "RequirementPart":
@@ -178,44 +180,46 @@ class RequirementPart(NamedTuple):
         )
 
 
-def _unable(found: PairBounds, motors: Sequence[int]) -> dict[int, Rejection]:
+def _infeasible_motors(bounds: PairBounds, motors: Sequence[int]) -> dict[int, Rejection]:
     """Reasons for motors that fail with promising gears; with the mass if another works."""
     if not motors:
         return {}
-    problem = found.problem
-    pairs = [(motor, gear) for motor in motors for gear in promising_gears(found, motor)]
+    problem = bounds.problem
+    pairs = [(motor, gear) for motor in motors for gear in promising_gears(bounds, motor)]
     drives = drives_of(problem, np.array(pairs))
     unlimited = replace(problem.envelope, mass_max=np.inf)
-    weighty = largest_wheel(problem, unlimited) + drives.beside_rim
-    largest = largest_wheel(problem, problem.envelope) + drives.beside_rim
+    largest_of_any_mass = largest_wheel(problem, unlimited) + drives.inertia_beside_rim
+    largest = largest_wheel(problem, problem.envelope) + drives.inertia_beside_rim
     if problem.requirement.spin_inertia is not None:
         largest = np.full_like(largest, problem.requirement.spin_inertia)
     parts = tuple(_parts(problem, drives, largest))
-    late = np.max([part.late for part in parts], axis=0)
+    demand_ratio = np.max([part.demand_ratio for part in parts], axis=0)
     needed = np.max([part.needed for part in parts], axis=0)
     # The least late; among those never in time, the one that needs the smallest wheel.
-    score = np.where(np.isfinite(late), late, _NEVER * (1.0 + needed))
+    score = np.where(np.isfinite(demand_ratio), demand_ratio, _NEVER * (1.0 + needed))
     reasons = {}
     for motor in motors:
         rows = np.flatnonzero(drives.motor == motor)
         first, angle = np.unravel_index(np.argmin(score[rows]), score[rows].shape)
         row = int(rows[first])
-        part = max((one.at(row, int(angle)) for one in parts), key=lambda part: float(part.late))
-        fits = float(largest[row]) if largest[row] > drives.beside_rim[row] else 0.0
+        part = max(
+            (part.at(row, int(angle)) for part in parts), key=lambda part: float(part.demand_ratio)
+        )
+        fits = float(largest[row]) if largest[row] > drives.inertia_beside_rim[row] else 0.0
         drive = drives.take(np.array([row]))
-        reason, detail = _reason(problem, drive, part, (fits, float(weighty[row])))
+        reason, detail = _reason(problem, drive, part, (fits, float(largest_of_any_mass[row])))
         detail += _with_gear(problem, drives.gear[row])
-        if np.isfinite(found.least[motor]).any():
-            detail = f"{detail}; {_at_least(found, motor)}"
-        beyond = float(needed[row, angle] / max(largest[row], _NOTHING))
+        if np.isfinite(bounds.least[motor]).any():
+            detail = f"{detail}; {_mass_bound_text(bounds, motor)}"
+        wheel_ratio = float(needed[row, angle] / max(largest[row], _NOTHING))
         # Inertia scales with the fourth power of the radius.
         limits = Candidates.of_each_material(problem, drive).limits
-        narrow = (_narrowest(limits)[1] / problem.envelope.outer_radius_max) ** 4
+        radius_ratio = (_narrowest(limits)[1] / problem.envelope.outer_radius_max) ** 4
         reasons[motor] = Rejection(
             motor=problem.motors[motor].name,
             reason=reason,
             detail=detail,
-            shortfall=max(min(float(late[row, angle]), beyond), narrow) - 1.0,
+            shortfall=max(min(float(demand_ratio[row, angle]), wheel_ratio), radius_ratio) - 1.0,
             needed=float(part.needed) if np.isfinite(part.needed) else None,
             largest=fits,
         )
@@ -232,40 +236,57 @@ def _parts(
     line, armature, wheels = columns(drives.line), drives.armature[:, None], len(problem.layout)
     shape, yaw_inertia = (len(drives), len(intervals)), problem.robot.inertia[2:, 2]
     for maneuver in requirement.maneuvers:
-        at = angles if maneuver.incidence is None else np.full(angles.shape, maneuver.incidence)
-        axes = np.broadcast_to(problem.layout.axes(at), (*shape, 3, wheels))
+        incidences = (
+            angles if maneuver.incidence is None else np.full(angles.shape, maneuver.incidence)
+        )
+        axes = np.broadcast_to(problem.layout.axes(incidences), (*shape, 3, wheels))
         task = wheel_task([maneuver], requirement, inertia, yaw_inertia, axes)
         time = float(np.asarray(task.duration).item())
         needed = smallest_spin_inertia(task, line, armature)[0]
-        taken = wheel_slew_time(task, largest[:, None], line, armature)[0]
-        late = np.divide(taken, time, out=np.full(taken.shape, np.inf), where=time > 0.0)
+        time_taken = wheel_slew_time(task, largest[:, None], line, armature)[0]
+        demand_ratio = np.divide(
+            time_taken, time, out=np.full(time_taken.shape, np.inf), where=time > 0.0
+        )
         if maneuver.upset:
             # The whole demand is proportional to the tilt, and the time is not set by the user.
             demand = spin_demand(task, line, armature)
             wheel = np.minimum(largest[:, None], 0.5 / demand.coupling)
-            can = capability(demand, np.maximum(wheel, _NOTHING)).sweep
-            late = np.divide(demand.sweep, can, out=np.full(can.shape, np.inf), where=can > 0.0)[0]
+            capacity = capability(demand, np.maximum(wheel, _NOTHING)).sweep
+            demand_ratio = np.divide(
+                demand.sweep, capacity, out=np.full(capacity.shape, np.inf), where=capacity > 0.0
+            )[0]
         if maneuver.estimated:
             # The closed forms treat a full loop as part of it in part of the time, and a swing as a
             # turn there and back.
             time = maneuver.boundary(requirement.standing_height).duration
-        yield RequirementPart(maneuver.name, at, time, needed, late, slew_reason(task, line)[0])
-        kept = requirement.reserve(maneuver)
-        if kept.roll > 0.0:
-            axes = problem.layout.axes(at)
-            most = held_in_roll(kept.roll, inertia, yaw_inertia, axes, requirement)
-            needed = most / drives.top_speed[:, None]
-            late, reason = needed / largest[:, None], np.full(shape, SlewReason.SPEED)
+        yield RequirementPart(
+            maneuver.name, incidences, time, needed, demand_ratio, slew_reason(task, line)[0]
+        )
+        reserve = requirement.reserve(maneuver)
+        if reserve.roll > 0.0:
+            axes = problem.layout.axes(incidences)
+            momentum = roll_cancelling_momentum(
+                reserve.roll, inertia, yaw_inertia, axes, requirement
+            )
+            needed = momentum / drives.top_speed[:, None]
+            demand_ratio, reason = needed / largest[:, None], np.full(shape, SlewReason.SPEED)
             yield RequirementPart(
-                f"a roll at lift-off in {maneuver.name}", at, np.inf, needed, late, reason
+                f"a roll at lift-off in {maneuver.name}",
+                incidences,
+                np.inf,
+                needed,
+                demand_ratio,
+                reason,
             )
     if requirement.rate_change is not None:
         axes = problem.layout.axes(angles)[..., :2, :]
         one_stops = requirement.detection is not None
-        needed = needed_by_rate(requirement.rate_change, drives, inertia, axes, one_stops=one_stops)
+        needed = rate_change_spin_inertia(
+            requirement.rate_change, drives, inertia, axes, one_stops=one_stops
+        )
         reason = np.where(np.isinf(needed), SlewReason.AXIS, SlewReason.SPEED)
-        late = needed / largest[:, None]
-        yield RequirementPart("the rate change", angles, np.inf, needed, late, reason)
+        demand_ratio = needed / largest[:, None]
+        yield RequirementPart("the rate change", angles, np.inf, needed, demand_ratio, reason)
 
 
 def _reason(
@@ -278,7 +299,7 @@ def _reason(
         fitting: spin inertia of the largest wheel that fits, 0 where not even a rim does, and the
             same without a mass limit [kg m^2].
     """
-    fits, weighty = fitting
+    fits, largest_of_any_mass = fitting
     wheel = f"{part.name} needs a wheel of {part.needed:.3g} kg m^2"
     if part.reason == SlewReason.AXIS:
         at = np.degrees(part.incidence)
@@ -289,11 +310,11 @@ def _reason(
             Reason.INCIDENCE,
             f"{part.name} requires momentum about an axis out of reach {place}",
         )
-    if not part.late > 1.0:
+    if not part.demand_ratio > 1.0:
         # A wheel would fit except for its hoop stress, or for what it adds to the robot's inertia.
         limits = Candidates.of_each_material(problem, drive).limits
         rims = np.maximum(
-            part.needed - drive.beside_rim, smallest_rim_inertia(limits) * (1.0 + 1e-9)
+            part.needed - drive.inertia_beside_rim, smallest_rim_inertia(limits) * (1.0 + 1e-9)
         )
         if not _any_rim(rims, replace(limits, stretch_max=np.inf)):
             # The part that the rim is too narrow to go around, if any.
@@ -314,20 +335,22 @@ def _reason(
             Reason.OWN_WEIGHT,
             f"{wheel} on the robot alone, and with the device on it no wheel that fits suffices",
         )
-    weak = part.reason == SlewReason.TORQUE
-    if np.isfinite(part.needed) and not weak:
-        reason = Reason.ENVELOPE if part.needed > weighty else Reason.MASS
+    lacks_torque = part.reason == SlewReason.TORQUE
+    if np.isfinite(part.needed) and not lacks_torque:
+        reason = Reason.ENVELOPE if part.needed > largest_of_any_mass else Reason.MASS
         which = f"at most {fits:.3g} fits" if fits > 0.0 else "and no rim fits at all"
         return reason, f"{wheel}, {which}"
-    asked = next((each for each in problem.requirement.maneuvers if each.name == part.name), None)
-    best, given = f"takes {part.late * part.time:.3g} s at best", f"{part.time:.3g} s"
-    if asked is not None and asked.upset:
-        milder = asked.milder(float(1.0 / part.late)).upset
-        best, given = f"recovers from {milder} at best", asked.upset
-    elif np.isinf(part.late):
+    maneuver = next(
+        (maneuver for maneuver in problem.requirement.maneuvers if maneuver.name == part.name), None
+    )
+    best, given = f"takes {part.demand_ratio * part.time:.3g} s at best", f"{part.time:.3g} s"
+    if maneuver is not None and maneuver.upset:
+        milder = maneuver.milder(float(1.0 / part.demand_ratio)).upset
+        best, given = f"recovers from {milder} at best", maneuver.upset
+    elif np.isinf(part.demand_ratio):
         best = "is never completed"
     detail = f"{part.name} {best}, {given} given"
-    return Reason.TORQUE if weak else Reason.SPEED, detail
+    return Reason.TORQUE if lacks_torque else Reason.SPEED, detail
 
 
 def largest_wheel(problem: SelectionProblem, room: Envelope) -> float:

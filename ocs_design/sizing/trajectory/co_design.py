@@ -17,7 +17,7 @@ from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.common.arrays import FloatArray
 from ocs_design.device.layout import module_axes
 from ocs_design.sizing.lightest_module import binding_limits, lightest_module_at
-from ocs_design.sizing.selection.demand import UNDOES, rate_demands
+from ocs_design.sizing.selection.demand import ROLL_CANCELLED, rate_demands
 from ocs_design.sizing.selection.problem import Candidate, SelectionProblem
 from ocs_design.sizing.trajectory.flight import Flight, fly
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
@@ -256,7 +256,9 @@ class FreeDevice:
         def excess(dimensions: ca.MX) -> ca.MX:
             """Missing momentum of the wheels, relative to the robot's.
 
-            Parts: the change of rate, and cancelling a roll at lift-off (`held_in_roll`)."""
+            Parts: the change of rate, and cancelling a roll at lift-off
+            (`roll_cancelling_momentum`).
+            """
             plant, parts = self.plant(dimensions), []
             whole, shares = plant.inertia, plant.axes[:2, 0]
             held = 2.0 * top * plant.spin_inertia * shares
@@ -266,7 +268,7 @@ class FreeDevice:
                 asked = (ca.vertcat(whole[0, 0], whole[1, 1]) + across) * change
                 parts.append((asked - held) / ca.DM(np.diag(robot)[:2] * change))
             if roll:
-                asked = whole[0, 0] * (1.0 + whole[0, 0] / whole[2, 2]) * roll / UNDOES
+                asked = whole[0, 0] * (1.0 + whole[0, 0] / whole[2, 2]) * roll / ROLL_CANCELLED
                 parts.append((asked - held[0]) / float(robot[0, 0] * roll))
             return ca.vertcat(*parts)
 

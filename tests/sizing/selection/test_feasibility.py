@@ -44,8 +44,8 @@ def test_what_is_kept_from_a_like_problem_is_what_is_found_anew(limit):
     kept, anew = Field.of(problem).changed(changed), Field.of(changed)
     assert kept.drives.gear.tolist() == anew.drives.gear.tolist()
     assert kept.needed == pytest.approx(anew.needed, rel=1e-14)
-    stall = anew.drives.whole.stall_torque
-    assert kept.drives.whole.stall_torque == pytest.approx(stall, rel=1e-14)
+    stall = anew.drives.full_line.stall_torque
+    assert kept.drives.full_line.stall_torque == pytest.approx(stall, rel=1e-14)
 
 
 def test_after_so_many_of_the_most_promising_the_answer_is_no(monkeypatch):
