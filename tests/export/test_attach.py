@@ -1,4 +1,4 @@
-"""The device on a MuJoCo model: where it is asked to be, and nothing else changed."""
+"""The device on a MuJoCo model: in its place, with nothing else changed."""
 
 import mujoco
 import numpy as np
@@ -40,8 +40,8 @@ def read_mjcf(folder, text=MJCF):
     return read_robot(path, trunk="trunk", posture="zero")
 
 
-def test_a_trunk_link_may_stand_off_its_moving_body():
-    """B is the frame of the link that carries the device, not of what it is fixed to."""
+def test_a_trunk_link_may_be_offset_from_its_body():
+    """B is the frame of the link that carries the device, not of its moving body."""
     path = ROBOTS / "anymal_c_simple_description/urdf/anymal.urdf"
     body = read_robot(path).tree.bodies[0]
     name, place = next((n, p) for n, p in body.links.items() if np.abs(p.rotation).trace() < 2.9)
@@ -55,7 +55,7 @@ def test_a_trunk_link_may_stand_off_its_moving_body():
     np.testing.assert_allclose(data.joint("ocs_left").xaxis, axis, atol=1e-14)
 
 
-def test_the_users_defaults_and_compiler_do_not_reach_the_wheels(tmp_path):
+def test_defaults_and_compiler_of_the_user_do_not_affect_the_wheels(tmp_path):
     robot, device = read_mjcf(tmp_path), paper_device()
     model = with_device(robot, device)
     check_wheels_in_mujoco(model, device, robot.trunk)
@@ -77,7 +77,7 @@ def test_the_users_defaults_and_compiler_do_not_reach_the_wheels(tmp_path):
         (motor(stall_torque=2.0, torque_limit=3.0), 2.0),
     ],
 )
-def test_motors_give_newton_metres_up_to_their_limit(drive, limit):
+def test_motors_give_the_commanded_torque_up_to_their_limit(drive, limit):
     model = with_device(robot_by_hand(2.5, (0.03, 0.05, 0.07)), paper_device(drive=drive))
     actuator = model.actuator("ocs_left")
     assert bool(actuator.ctrllimited[0]) == (limit is not None)
@@ -90,7 +90,7 @@ def test_motors_give_newton_metres_up_to_their_limit(drive, limit):
 
 
 SENSOR = '<sensor><jointvel name="{}" joint="first"/></sensor>'
-NAMED = {
+CLASHES = {
     "body": {'body name="first"': 'body name="ocs_left_flywheel"'},
     "body 'ocs_left_motor": {'body name="first"': 'body name="ocs_left_motor"'},
     "joint": {'joint name="first"': 'joint name="ocs_right"', 'joint="first"': 'joint="ocs_right"'},
@@ -100,15 +100,15 @@ NAMED = {
     "sensor": {"<keyframe>": SENSOR.format("ocs_left_velocity") + "<keyframe>"},
     "sensor 'ocs_imu_rate": {"<keyframe>": SENSOR.format("ocs_imu_rate") + "<keyframe>"},
 }
-"""What the robot has by the name of something of the device, and what is written for it."""
+"""Elements of the robot renamed to those of the device, as replacements in `MJCF`."""
 
 
-@pytest.mark.parametrize("kind", NAMED)
-def test_a_clash_of_names_is_an_error_that_says_so(tmp_path, kind):
+@pytest.mark.parametrize("kind", CLASHES)
+def test_a_clash_of_names_is_an_error(tmp_path, kind):
     text = MJCF
-    for own, clashing in NAMED[kind].items():
-        text = text.replace(own, clashing)
-    what, _, name = kind.partition(" '")
-    with pytest.raises(RobotError, match=f"{what} named '{name or 'ocs_'}") as error:
+    for original, clashing in CLASHES[kind].items():
+        text = text.replace(original, clashing)
+    element, _, name = kind.partition(" '")
+    with pytest.raises(RobotError, match=f"{element} named '{name or 'ocs_'}") as error:
         robot_model(read_mjcf(tmp_path, text), driven_device())
     assert "rename" in error.value.hint

@@ -1,4 +1,4 @@
-"""The list of what to buy and to make."""
+"""The bill of materials: parts to buy and to make."""
 
 import csv
 from dataclasses import replace
@@ -18,8 +18,8 @@ from ocs_design.parts.solids import Carrier
 GEAR_MASS = 0.02
 
 
-def whole_device():
-    """With everything that a device can hold: rim, motor, gear, housing and foot."""
+def full_device():
+    """A device with rim, motor, gear, housing and foot."""
     drive = replace(geared(4.0), gear_mass=GEAR_MASS, gear_room=GearRoom(0.01, 0.03, 0.01, 0.01))
     shell = float(Printed(0.0).mass(PAPER_WHEEL.outer_radius, PAPER_WHEEL.height))
     carrier = Carrier(EC45.mass + GEAR_MASS + shell, 1e-4, 1e-4)
@@ -31,7 +31,7 @@ def rows_of(text):
 
 
 def test_all_parts_together_weigh_what_the_device_weighs():
-    device = whole_device()
+    device = full_device()
     kinds = " ".join(row.part.split()[0] for row in bill_rows(device) if row.mass)
     assert kinds == "flywheel motor gear housing foot screw screw"
     masses = [row.quantity * row.mass for row in bill_rows(device)]
@@ -77,16 +77,16 @@ def test_a_screw_that_is_longer_than_usual_may_be_a_special_order():
         rows = bill_rows(replace(device, plate=plate))
         return next(row for row in rows if row.remark.startswith("plate on trunk"))
 
-    usual, long = trunk_screws(0.024), trunk_screws(0.0241)
+    usual, longer = trunk_screws(0.024), trunk_screws(0.0241)
     assert (usual.part, usual.material) == ("screw ISO 4762 M3 x 30", "steel, class 8.8")
     assert "special" not in usual.remark
-    assert long.part == "screw ISO 4762 M3 x 35"
-    assert long.remark.endswith(
+    assert longer.part == "screw ISO 4762 M3 x 35"
+    assert longer.remark.endswith(
         "longer than M3 is usually sold (30 mm, ISO 4762): may be a special order"
     )
 
 
-def test_only_what_the_device_holds_is_listed():
+def test_only_parts_of_the_device_are_listed():
     assert [row.part for row in bill_rows(paper_device())] == ["flywheel rim"]
     bare = driven_device(carrier=replace(EC45_BODY, mass=EC45.mass))
     assert [row.part for row in bill_rows(bare) if row.mass] == ["flywheel rim", "motor test"]
@@ -97,14 +97,14 @@ def test_only_what_the_device_holds_is_listed():
     [(0.0, "round bar 62 x 12"), (0.015, "round bar 62 x 12"), (0.022, "tube 62 x 42 inside x 12")],
 )
 def test_the_rim_fits_into_its_stock(inner, stock):
-    """60 mm by 10 mm with a millimetre on each side."""
+    """A rim of 60 mm by 10 mm with 1 mm of allowance on each side."""
     device = paper_device()
     device = replace(device, flywheel=replace(device.flywheel, inner_radius=inner))
     assert bill_rows(device)[0].stock == stock
 
 
 @pytest.mark.parametrize("name", ["=1+1", "+A1", "-2", "@SUM(A1)", "\t=1", "\r=1", " \n=1"])
-def test_no_name_is_a_formula(name):
+def test_names_that_look_like_formulas_are_quoted(name):
     assert plain(name) == "'" + name.strip()
     assert plain("EC 45 flat, 70 W = good") == "EC 45 flat, 70 W = good"
     wheel = replace(PAPER_WHEEL, material=name)
@@ -112,7 +112,7 @@ def test_no_name_is_a_formula(name):
     assert rows_of(text)[0]["material"] == "'" + name.strip()
 
 
-def test_any_name_stays_in_its_cell_and_on_its_line():
+def test_names_with_quotes_and_line_breaks_stay_in_their_cell():
     drive = replace(EC45, name='a "b", c', source="d\ne")
     text = bill_csv(driven_device(drive=drive))
     motor = rows_of(text)[1]
@@ -140,8 +140,8 @@ def margin(name, demand, unit="A"):
     return Margin(name=name, demand=demand, capacity=None, unit=unit)
 
 
-def test_the_battery_gives_and_takes_what_the_flights_asked():
-    """28.2 A at 24 V are 676.8 W; a stated power stands before the product."""
+def test_the_battery_is_rated_for_the_currents_of_the_flights():
+    """28.2 A at 24 V are 676.8 W; a margin of power takes precedence over the product."""
     margins = (
         margin("bus current", 28.2),
         margin("bus current, fed back", 22.0),
@@ -162,33 +162,32 @@ def test_the_battery_gives_and_takes_what_the_flights_asked():
     assert "battery" not in {row.part for row in bill_rows(driven_device())}
 
 
-def test_a_wheel_that_is_bonded_on_a_shaft_has_its_compound_in_the_bill():
-    """And one that is screwed to a rotor its threadlocker."""
-    for name, used in (("by its face", "retaining compound"), ("caged", "threadlocker")):
+def test_the_bill_lists_retaining_compound_or_threadlocker():
+    """Retaining compound for a wheel on a shaft, threadlocker for one screwed to a rotor."""
+    for name, compound in (("by its face", "retaining compound"), ("caged", "threadlocker")):
         rows = {row.part: row for row in bill_rows(DEVICES[name])}
-        assert rows[used].mass == 0.0
+        assert rows[compound].mass == 0.0
     assert "retaining compound" not in {row.part for row in bill_rows(DEVICES["caged"])}
 
 
-@pytest.mark.parametrize(("rated", "told"), [(16.8, True), (24.0, False), (None, False)])
-def test_a_motor_on_more_volts_than_it_is_rated_for_is_told_where_it_is_bought(rated, told):
-    device = whole_device()
+@pytest.mark.parametrize(("rated", "warned"), [(16.8, True), (24.0, False), (None, False)])
+def test_a_motor_above_its_rated_voltage_has_a_remark(rated, warned):
+    device = full_device()
     motor = replace(device.motor, bus_voltage=24.0, rated_voltage=rated)
-    bought = next(
-        row for row in bill_rows(replace(device, motor=motor)) if row.part.startswith("motor")
-    )
-    assert ("rated for 16.8 V: ask its maker before you buy" in bought.remark) is told
+    rows = bill_rows(replace(device, motor=motor))
+    remark = next(row.remark for row in rows if row.part.startswith("motor"))
+    assert ("rated for 16.8 V: ask its maker before you buy" in remark) is warned
 
 
-def test_parts_of_the_wiring_are_bought_and_not_counted():
-    """Fuse, switch and bus carry what the flights drew or fed back, whichever is more."""
+def test_wiring_is_listed_without_mass():
+    """Fuse, switch and bus carry the larger of the currents drawn and fed back in the flights."""
     drive = replace(DEVICES["caged"].motor, bus_voltage=24.0)
     device = replace(DEVICES["caged"], motor=drive)
-    asked = tuple(
-        Margin(name=f"bus current{way}", demand=current, capacity=None, unit="A")
-        for way, current in (("", 28.6), (", fed back", 41.2))
+    margins = tuple(
+        Margin(name=f"bus current{direction}", demand=current, capacity=None, unit="A")
+        for direction, current in (("", 28.6), (", fed back", 41.2))
     )
-    rows = {row.part: row for row in bill_rows(device, asked)}
+    rows = {row.part: row for row in bill_rows(device, margins)}
     for part, count in (
         ("rotor angle sensor", 2),
         ("fuse with holder", 1),

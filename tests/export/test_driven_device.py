@@ -1,4 +1,4 @@
-"""A device with real motors in every file: the whole robot's inertia, armature, limits, names."""
+"""A device with real motors in every file: inertia of the whole robot, armature, limits, names."""
 
 import re
 from dataclasses import replace
@@ -60,23 +60,23 @@ def test_mujoco_and_pinocchio_see_the_whole_robot(case, tmp_path):
 
 def test_the_wheel_has_its_momentum_and_the_joint_its_armature(device, tmp_path):
     model = mujoco_model(BLOCK, device, tmp_path)
-    full = np.empty((model.nv, model.nv))
+    mass_matrix = np.empty((model.nv, model.nv))
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
-    mujoco.mj_fullM(model, data, full)
+    mujoco.mj_fullM(model, data, mass_matrix)
     for module in device.modules:
-        at = int(model.joint(f"ocs_{module.name}").dofadr[0])
+        dof = int(model.joint(f"ocs_{module.name}").dofadr[0])
         h = device.flywheel.spin_inertia
-        assert full[at, at] == pytest.approx(h + device.motor.armature, rel=1e-12)
-        np.testing.assert_allclose(full[at, 3:6], h * module.axis, rtol=0, atol=1e-12 * h)
+        assert mass_matrix[dof, dof] == pytest.approx(h + device.motor.armature, rel=1e-12)
+        np.testing.assert_allclose(mass_matrix[dof, 3:6], h * module.axis, rtol=0, atol=1e-12 * h)
 
 
-@pytest.mark.parametrize("rotor", [0.0, 1e-5, 3e-5, 1e-4, -1e-4])
-def test_bodies_can_exist_whatever_the_rotor(rotor):
-    """Triangle inequality of moments of inertia, all of them positive."""
-    drive = replace(EC45, rotor_inertia=rotor)
+@pytest.mark.parametrize("rotor_inertia", [0.0, 1e-5, 3e-5, 1e-4, -1e-4])
+def test_bodies_are_physical_for_any_rotor(rotor_inertia):
+    """Moments of inertia are positive and fulfil the triangle inequality."""
+    drive = replace(EC45, rotor_inertia=rotor_inertia)
     device = driven_device(drive=drive)
-    device = replace(device, flywheel=replace(device.flywheel, spin_inertia=1.5e-4 + rotor))
+    device = replace(device, flywheel=replace(device.flywheel, spin_inertia=1.5e-4 + rotor_inertia))
     device = replace(device, flywheel=replace(device.flywheel, transverse_inertia=0.76e-4))
     for body in (flywheel_inertial(device), carrier_inertial(device, device.modules[0])):
         assert physical_defect(body) is None
@@ -84,29 +84,29 @@ def test_bodies_can_exist_whatever_the_rotor(rotor):
         assert 0.0 < low <= middle <= high <= low + middle
 
 
-def test_a_rotor_heavier_than_its_carrier_leaves_a_little_of_it():
-    """The only case in which the files have more inertia than the module, and by how much."""
+def test_a_carrier_keeps_a_hundredth_beside_a_larger_rotor_inertia():
+    """The only case in which the files have more inertia than the module."""
     rotor = 3.0 * EC45_BODY.axial_inertia
     device = driven_device(drive=replace(EC45, rotor_inertia=rotor))
     left = carrier_inertial(device, device.modules[0]).inertia[2, 2]
     assert left == pytest.approx(0.01 * EC45_BODY.axial_inertia)
 
 
-TURNED = ' prefix="front_" incidence="0.25"'
+RENAMED = ' prefix="front_" incidence="0.25"'
 MACROS = {name: (DEVICES[name], "", DEVICES[name]) for name in ("direct", *LAYOUTS)}
-MACROS |= {"by another name at another angle": (driven_device(), TURNED, driven_device(0.25))}
+MACROS |= {"with a prefix at another angle": (driven_device(), RENAMED, driven_device(0.25))}
 
 
-@pytest.mark.parametrize(("written", "arguments", "made"), MACROS.values(), ids=MACROS)
-def test_the_xacro_macro_makes_every_layout_at_any_angle(written, arguments, made, tmp_path):
+@pytest.mark.parametrize(("written", "arguments", "expected"), MACROS.values(), ids=MACROS)
+def test_the_xacro_macro_makes_every_layout_at_any_angle(written, arguments, expected, tmp_path):
     (tmp_path / "ocs.urdf.xacro").write_text(snippet_xacro(written, TrunkOnly()))
     text = expand_macro(tmp_path, f'<xacro:ocs parent="{TRUNK}"{arguments}/>')
     assert ('link name="front_ocs_left_motor"' in text) == bool(arguments)
-    seat = replace(robot_by_hand(1.0, (1.0, 1.0, 1.0)), trunk=TRUNK)
-    check_total(total_by_pinocchio(text, seat), seat, made)
+    trunk = replace(robot_by_hand(1.0, (1.0, 1.0, 1.0)), trunk=TRUNK)
+    check_total(total_by_pinocchio(text, trunk), trunk, expected)
 
 
-def test_the_mjcf_snippet_has_them(device, tmp_path):
+def test_the_mjcf_snippet_has_the_whole_inertia_and_armature(device, tmp_path):
     (tmp_path / "ocs.xml").write_text(snippet_mjcf(device, replace(BLOCK, trunk="base_link")))
     (tmp_path / "robot.xml").write_text(
         '<mujoco><asset><model name="ocs" file="ocs.xml"/></asset><worldbody>'
@@ -121,18 +121,20 @@ def test_the_mjcf_snippet_has_them(device, tmp_path):
         assert model.body(f"ocs_{module.name}_motor").name
 
 
-def test_urdf_says_what_it_cannot_hold():
+def test_urdf_has_the_armature_as_a_comment():
     drive = geared(3.0)
     text = robot_urdf(BLOCK, driven_device(drive=drive)).decode()
-    said = re.findall(r"<!-- armature (\S+) kg m\^2, which URDF cannot state -->", text)
-    assert [float(value) for value in said] == [drive.armature] * 2
-    plain = robot_urdf(BLOCK, driven_device()).decode()
-    assert "armature" not in plain
+    comments = re.findall(r"<!-- armature (\S+) kg m\^2, which URDF cannot state -->", text)
+    assert [float(value) for value in comments] == [drive.armature] * 2
+    direct = robot_urdf(BLOCK, driven_device()).decode()
+    assert "armature" not in direct
 
 
-@pytest.mark.parametrize(("top", "velocity"), [(400.0, 400.0), (None, 650.4), (1047.2, 650.4)])
-def test_the_slower_of_voltage_and_mechanics_is_the_joints_limit(top, velocity):
-    device = driven_device(drive=replace(EC45, speed_max=top))
+@pytest.mark.parametrize(
+    ("speed_max", "velocity"), [(400.0, 400.0), (None, 650.4), (1047.2, 650.4)]
+)
+def test_the_velocity_limit_is_the_lower_of_motor_and_mechanics(speed_max, velocity):
+    device = driven_device(drive=replace(EC45, speed_max=speed_max))
     model = pinocchio_model(robot_urdf(BLOCK, device).decode())
     index = model.idx_vs[model.getJointId("ocs_left")]
     assert model.upperVelocityLimit[index] == velocity

@@ -1,4 +1,4 @@
-"""DXF of the wheel's pieces, read again by ezdxf, against the closed form."""
+"""DXF of the wheel's pieces, read back by ezdxf, against the closed form."""
 
 import hashlib
 import os
@@ -32,7 +32,7 @@ PIECES = {
 
 
 def read(piece, folder):
-    """Its document, as strict as ezdxf can be."""
+    """The piece's document; ezdxf finds nothing to fix."""
     path = folder / "piece.dxf"
     path.write_text(dxf_text(piece), encoding="utf-8")
     document, auditor = recover.readfile(path)
@@ -47,7 +47,7 @@ def on_layer(document, layer, kind):
 
 @pytest.mark.parametrize("piece", PIECES.values(), ids=PIECES)
 def test_section_and_holes_have_the_volume_of_the_piece(piece, tmp_path):
-    """Pappus: what the section sweeps over a turn, less the holes, weighs what the piece weighs."""
+    """Pappus: the section's volume of revolution, less the holes, is the volume of the piece."""
     document = read(piece, tmp_path)
     assert document.units == units.MM
     (section,) = on_layer(document, "SECTION", "LWPOLYLINE")
@@ -62,15 +62,16 @@ def test_section_and_holes_have_the_volume_of_the_piece(piece, tmp_path):
     lengths = dict.fromkeys(holes, 0.0)
     for key, cut in zip(holes, piece.cut, strict=True):
         lengths[key] += 1e3 * (cut.high - cut.low)
-    taken = sum(
-        round_area(each) * length for each, length in zip(drawn, lengths.values(), strict=True)
+    removed = sum(
+        enclosed_area(outline) * length
+        for outline, length in zip(drawn, lengths.values(), strict=True)
     )
     exact = piece.mass_properties().mass / piece.density
-    assert (swept - taken) * 1e-9 == pytest.approx(exact, rel=1e-9)
+    assert (swept - removed) * 1e-9 == pytest.approx(exact, rel=1e-9)
 
 
-def round_area(polyline):
-    """Area of a closed polyline: the polygon's, and what its arcs enclose beyond their chords."""
+def enclosed_area(polyline):
+    """Area of a closed polyline: the polygon's and that between its arcs and their chords."""
     points = np.array(polyline.get_points("xyb"))
     start, end, bulge = points[:, :2], np.roll(points[:, :2], -1, axis=0), points[:, 2]
     angle = 4.0 * np.arctan(bulge)
@@ -87,10 +88,10 @@ def test_holes_are_where_the_wheel_has_them(tmp_path):
     radii = np.linalg.norm(np.diff(drawn[:, :, :2], axis=1)[:, 0], axis=1) / 2.0
     centres = drawn[:, :, :2].mean(axis=1)
     for ring in (WEB.hub.bolt_ring, WEB.holes):
-        own = centres[np.isclose(radii, 1e3 * ring.hole_radius)]
-        assert len(own) == ring.count
-        np.testing.assert_allclose(np.linalg.norm(own, axis=1), 1e3 * ring.circle_radius)
-        angles = np.sort(np.mod(np.degrees(np.arctan2(own[:, 1], own[:, 0])), 360.0))
+        of_ring = centres[np.isclose(radii, 1e3 * ring.hole_radius)]
+        assert len(of_ring) == ring.count
+        np.testing.assert_allclose(np.linalg.norm(of_ring, axis=1), 1e3 * ring.circle_radius)
+        angles = np.sort(np.mod(np.degrees(np.arctan2(of_ring[:, 1], of_ring[:, 0])), 360.0))
         np.testing.assert_allclose(np.diff(angles), 360.0 / ring.count)
     assert len(drawn) == WEB.hub.bolts + WEB.holes.count
 
@@ -101,7 +102,7 @@ def test_blind_holes_of_both_faces_are_drawn_once(tmp_path):
     assert len(on_layer(read(piece, tmp_path), "HOLES", "LWPOLYLINE")) == 5
 
 
-def test_the_outline_has_the_diameters_of_the_rim_and_stands_beside_the_section(tmp_path):
+def test_the_outline_has_the_diameters_of_the_rim(tmp_path):
     document, rim = read(wheel_parts(RIM_ALONE)[0], tmp_path), RIM_ALONE.rim
     outline = on_layer(document, "OUTLINE", "CIRCLE")
     radii = sorted(circle.dxf.radius for circle in outline)
@@ -112,7 +113,7 @@ def test_the_outline_has_the_diameters_of_the_rim_and_stands_beside_the_section(
 
 
 def test_bytes_are_the_same_in_every_process():
-    """Whatever the order of sets there."""
+    """Also with another order of sets."""
     code = (
         "import hashlib; from sample_parts import TWO_PIECES; from ocs_design.export.dxf import "
         "dxf_text; from ocs_design.parts.wheel import wheel_parts; "
@@ -120,19 +121,19 @@ def test_bytes_are_the_same_in_every_process():
     )
     path = os.pathsep.join([str(Path(__file__).parents[1]), *sys.path])
     environment = {**os.environ, "PYTHONHASHSEED": "1", "PYTHONPATH": path}
-    done = subprocess.run(
+    process = subprocess.run(
         [sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True
     )
     here = hashlib.sha256(dxf_text(wheel_parts(TWO_PIECES)[0]).encode()).hexdigest()
-    assert done.stdout.strip() == here
+    assert process.stdout.strip() == here
 
 
 @pytest.mark.parametrize("name", ["two_rim", "two_hub", "one_wheel", "rim_rim"])
 def test_the_section_is_that_of_the_stl_file(name, tmp_path):
-    """Cut by a half plane that passes no hole: both have the same corners and circumference."""
+    """A half plane that meets no hole cuts the STL along the section: same corners, same length."""
     piece = PIECES[name]
     holes = [1e3 * cut.outline.points for cut in piece.cut]
-    angle = max(np.linspace(0.0, np.pi, 721)[:-1], key=lambda each: _room(holes, each))
+    angle = max(np.linspace(0.0, np.pi, 721)[:-1], key=lambda angle: _clearance(holes, angle))
     (tmp_path / "piece.stl").write_bytes(
         stl_bytes(part_mesh(piece), "piece", units_per_metre=MILLIMETRES)
     )
@@ -147,19 +148,19 @@ def test_the_section_is_that_of_the_stl_file(name, tmp_path):
     corners[:, 0] += heights.min() - corners[:, 0].min()
     length = np.linalg.norm(cut[:, 1] - cut[:, 0], axis=1).sum()
     around = np.linalg.norm(corners - np.roll(corners, 1, axis=0), axis=1).sum()
-    # Chords of the STL file's circles lie inside and outside of them by so much.
-    off = 2e-3 * corners[:, 1].max()
+    # Chords of the STL file's circles deviate from them by this much.
+    tolerance = 2e-3 * corners[:, 1].max()
     assert length == pytest.approx(around, rel=2e-3)
     ends = cut.reshape(-1, 2)
-    assert max(np.linalg.norm(ends - corner, axis=1).min() for corner in corners) < off
+    assert max(np.linalg.norm(ends - corner, axis=1).min() for corner in corners) < tolerance
 
 
 def _normal(angle):
     return np.array([-np.sin(angle), np.cos(angle), 0.0])
 
 
-def _room(holes, angle):
-    """Least distance of a plane through the axis from the holes; 0 if it passes one."""
+def _clearance(holes, angle):
+    """Least distance of a plane through the axis from the holes; 0 if it meets one."""
     sides = [hole @ _normal(angle)[:2] for hole in holes]
     apart = [np.abs(side).min() if np.ptp(np.sign(side)) == 0.0 else 0.0 for side in sides]
     return min(apart, default=0.0)

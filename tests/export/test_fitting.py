@@ -1,4 +1,4 @@
-"""What is said where a motor, its wheel and the printed parts do not simply fit."""
+"""Notes where a motor, its wheel and the printed parts do not simply fit."""
 
 import re
 from dataclasses import replace
@@ -22,29 +22,29 @@ from ocs_design.parts.rim import Hub, RimCuts
 
 WEB = Web("aluminium-6061-t6", 2710.0, 0.0015, 0.01, Hub(0.008, 0.005, 0.002))
 BACK_OF_PLATE = 0.005 + 0.002 + 0.0012 + 0.005
-"""Half of the rim's 10 mm, clearance, floor, plate: to the wheel's middle [m]."""
+"""Distance from the wheel's middle: half of the rim's 10 mm, clearance, floor and plate [m]."""
 
 
-def device_on(mounting, drive=EC45, apart=0.05, incidence=0.3) -> Device:
+def device_on(mounting, drive=EC45, offset=0.05, incidence=0.3) -> Device:
     device = driven_device(incidence, replace(drive, mounting=mounting))
     left, right = device.modules
     modules = (
-        replace(left, position=np.array([0.0, apart, 0.05])),
-        replace(right, position=np.array([0.0, -apart, 0.05])),
+        replace(left, position=np.array([0.0, offset, 0.05])),
+        replace(right, position=np.array([0.0, -offset, 0.05])),
     )
     return replace(device, modules=modules, flywheel=replace(PAPER_WHEEL, web=WEB))
 
 
-def said(device):
+def notes(device):
     return " | ".join(drive_notes(device))
 
 
-def test_a_motor_whose_shaft_is_long_enough_needs_no_word():
-    assert said(device_on(replace(FLAT, shaft_length=BACK_OF_PLATE + 1e-6))) == ""
-    assert said(paper_device()) == ""
+def test_a_long_enough_shaft_needs_no_note():
+    assert notes(device_on(replace(FLAT, shaft_length=BACK_OF_PLATE + 1e-6))) == ""
+    assert notes(paper_device()) == ""
 
 
-def test_broken_edges_are_told_where_they_were_not_sized_with():
+def test_broken_edges_that_were_not_designed_are_noted():
     device = paper_device()
     (remark,) = device_notes(device)
     assert remark == "with its edges broken 0.2 mm a wheel has 0.10% less inertia than was designed"
@@ -53,26 +53,26 @@ def test_broken_edges_are_told_where_they_were_not_sized_with():
 
 
 @given(st.floats(0.05, 20.0), st.floats(0.0, 1.0))
-def test_feet_bear_the_shock_or_it_is_told(mass, share):
-    """Notes are for what the plate does not bear, and for no other."""
+def test_feet_bear_the_shock_or_a_note_says_so(mass, share):
+    """There is a note exactly where the plate does not bear the shock."""
     device = device_on(replace(FLAT, shaft_length=0.05))
     device = replace(device, carrier=replace(device.carrier, mass=mass))
-    thick = plate_thickness(foot_of(device), mass + device.flywheel.mass)
-    device = replace(device, foot_plate=0.005 + share * (thick - 0.005))
-    bears = foot_shock(foot_of(device), mass + device.flywheel.mass) / 9.80665
-    told = "printed in PETG, the feet take" in said(device)
-    assert told == (bears < 20.0)
-    assert "mill them from 6061-T6" in said(device) or not told
-    if share == 1.0 and thick < foot_of(device).stem:
-        assert not told
+    thickness = plate_thickness(foot_of(device), mass + device.flywheel.mass)
+    device = replace(device, foot_plate=0.005 + share * (thickness - 0.005))
+    limit = foot_shock(foot_of(device), mass + device.flywheel.mass) / 9.80665
+    noted = "printed in PETG, the feet take" in notes(device)
+    assert noted == (limit < 20.0)
+    assert "mill them from 6061-T6" in notes(device) or not noted
+    if share == 1.0 and thickness < foot_of(device).stem:
+        assert not noted
 
 
-@pytest.mark.parametrize(("mass", "told"), [(0.5, False), (8.0, True)])
-def test_cage_and_drum_bear_the_shock_or_it_is_told(mass, told):
-    """Heads of four M2 sink in at 1,282 N (tests/device/test_joints.py): under 8.3 kg at 16 g."""
+@pytest.mark.parametrize(("mass", "noted"), [(0.5, False), (8.0, True)])
+def test_cage_and_drum_bear_the_shock_or_a_note_says_so(mass, noted):
+    """Heads of four M2 sink in at 1,282 N (tests/device/test_joints.py): 8.3 kg at 16 g."""
     thick = replace(DEVICES["caged"], foot_plate=0.03)
     heavy = replace(thick, motor=replace(thick.motor, mass=mass, length=0.08))
-    assert ("cage and drum hold motor and wheel up to 16 g" in said(heavy)) == told
+    assert ("cage and drum hold motor and wheel up to 16 g" in notes(heavy)) == noted
 
 
 ROTOR = BoltCircle(0.012, 3, "M2")
@@ -107,43 +107,45 @@ ROTOR = BoltCircle(0.012, 3, "M2")
         ),
     ],
 )
-def test_what_does_not_fit_the_mounting_is_told(mounting, words):
-    assert re.search(words, said(device_on(mounting)))
+def test_misfits_of_the_mounting_are_noted(mounting, words):
+    assert re.search(words, notes(device_on(mounting)))
 
 
-def test_behind_a_gear_nothing_is_known():
+def test_the_mounting_behind_a_gear_is_not_designed():
     drive = replace(geared(2.0), diameter=0.04, length=0.1)
-    assert said(device_on(None, drive)).startswith("the mounting of motor and gear is not designed")
+    assert notes(device_on(None, drive)).startswith(
+        "the mounting of motor and gear is not designed"
+    )
 
 
-def test_a_heavy_module_behind_a_gear_lands_as_hard_as_any():
+def test_feet_of_a_heavy_module_behind_a_gear_are_checked_too():
     drive = replace(geared(2.0), diameter=0.04, length=0.1)
     device = replace(device_on(None, drive), foot_plate=0.005)
     heavy = replace(device, carrier=replace(device.carrier, mass=20.0))
-    assert "printed in PETG, the feet take" in said(heavy)
-    assert "printed in PETG, the feet take" not in said(device)
+    assert "printed in PETG, the feet take" in notes(heavy)
+    assert "printed in PETG, the feet take" not in notes(device)
 
 
-def test_feet_in_each_other_s_way():
-    assert "the feet overlap, each by" in said(device_on(FLAT, apart=0.02))
+def test_colliding_feet_are_noted():
+    assert "the feet overlap, each by" in notes(device_on(FLAT, offset=0.02))
 
 
 @pytest.mark.parametrize("name", ["single", "triad", "orthogonal", "pyramid"])
-def test_modules_without_a_mirror_image_stand_in_no_way_of_one(name):
+def test_other_layouts_have_no_note_on_a_mirror_image(name):
     device = device_in_layout(Layout(LayoutName(name)))
-    assert "overlap, each by" not in said(device)
+    assert "overlap, each by" not in notes(device)
 
 
 @given(incidence=st.floats(0.0, 1.5), diameter=st.floats(0.02, 0.06), length=st.floats(0.005, 0.06))
-def test_motors_are_told_of_where_they_reach_over_the_middle(incidence, diameter, length):
-    """By brute force: points on the edges of both ends."""
+def test_motors_that_reach_over_the_middle_are_noted(incidence, diameter, length):
+    """Compared with points on the edges of both ends."""
     drive = replace(EC45, diameter=diameter, length=length)
     device = device_on(FLAT, drive, incidence=incidence)
     motor = still_visuals(device, device.modules[0])[-1]
-    turn, (radius, half) = np.linspace(0.0, 2.0 * np.pi, 2001), motor.size
-    ring = np.column_stack([radius * np.cos(turn), radius * np.sin(turn)])
-    ends = [np.column_stack([ring, np.full(len(ring), end)]) for end in (-half, half)]
+    angles, (radius, half) = np.linspace(0.0, 2.0 * np.pi, 2001), motor.size
+    circle = np.column_stack([radius * np.cos(angles), radius * np.sin(angles)])
+    ends = [np.column_stack([circle, np.full(len(circle), end)]) for end in (-half, half)]
     place = wheel_placement(device.modules[0]) @ motor.place
     least = (np.concatenate(ends) @ place.rotation.T + place.position)[:, 1].min()
     if abs(least) > 1e-6:
-        assert ("the motors overlap, each by" in said(device)) == (least < 0.0)
+        assert ("the motors overlap, each by" in notes(device)) == (least < 0.0)

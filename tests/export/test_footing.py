@@ -1,4 +1,4 @@
-"""What is said of the holes that the trunk needs, and where the plate under the feet is written."""
+"""Notes on holes in the trunk, and the plate under the feet in every file."""
 
 import re
 from dataclasses import replace
@@ -33,28 +33,28 @@ def plated(robot):
     return stand_on_trunk(driven_device(), robot, specified=False)
 
 
-def test_the_holes_of_the_plate_are_told(robot, plated):
-    said, _ = trunk_notes(plated, robot)
+def test_the_holes_of_the_plate_are_noted(robot, plated):
+    note, _ = trunk_notes(plated, robot)
     x, y = plated.plate.trunk[0]
     x += plated.plate.position[0]
-    assert f"({1e3 * x:.1f}, {1e3 * y:.1f})" in said
-    assert "M3" in said
-    assert said.startswith("a plate carries the feet")
+    assert f"({1e3 * x:.1f}, {1e3 * y:.1f})" in note
+    assert "M3" in note
+    assert note.startswith("a plate carries the feet")
     two = replace(plated.plate, rows=(0.09, -0.09))
-    said, _ = trunk_notes(replace(plated, plate=two), robot)
-    assert said.startswith("2 plates carry the feet")
+    note, _ = trunk_notes(replace(plated, plate=two), robot)
+    assert note.startswith("2 plates carry the feet")
 
 
 def test_feet_on_the_trunk_need_threads_in_it_and_wheels_without_feet_none(robot, plated):
-    said, _ = trunk_notes(replace(plated, plate=None), robot)
-    assert "threads M3" in said
+    note, _ = trunk_notes(replace(plated, plate=None), robot)
+    assert "threads M3" in note
     bare = replace(plated, carrier=replace(plated.carrier, mass=0.0))
     assert trunk_notes(bare, robot) == ()
 
 
-def test_the_frame_is_found_by_the_trunk_s_ends(plated):
-    """Boxes of its link that are not turned, and cylinders that lie forward."""
-    _, said = trunk_notes(plated, read_robot(EXAMPLE))
+def test_the_frame_is_located_by_the_ends_of_the_trunk(plated):
+    """The trunk link has boxes along its axes and cylinders along x."""
+    _, note = trunk_notes(plated, read_robot(EXAMPLE))
     lows, highs = [], []
     for visual in ElementTree.parse(EXAMPLE).findall("link[@name='base_link']/visual"):
         middle = np.array(visual.find("origin").get("xyz").split(), dtype=float)
@@ -67,43 +67,44 @@ def test_the_frame_is_found_by_the_trunk_s_ends(plated):
         lows.append(middle - half)
         highs.append(middle + half)
     low, high = 1e3 * np.min(lows, axis=0), 1e3 * np.max(highs, axis=0)
-    found = re.findall(r"([\d.]+) mm", said)
+    distances = re.findall(r"([\d.]+) mm", note)
     expected = [high[0], -low[0], high[1], -low[1], high[2]]
     assert min(expected) > 0.0
-    assert f"{expected[0]:.1f} mm behind the front end" in said
-    np.testing.assert_allclose(np.array(found, dtype=float), expected, atol=1.0)
+    assert f"{expected[0]:.1f} mm behind the front end" in note
+    np.testing.assert_allclose(np.array(distances, dtype=float), expected, atol=1.0)
 
 
 @pytest.mark.parametrize(
-    ("above", "told"), [(0.0, "stand on its top"), (0.049, "stand 49.0 mm above its top")]
+    ("above", "words"), [(0.0, "stand on its top"), (0.049, "stand 49.0 mm above its top")]
 )
-def test_by_hand_the_box_that_stands_for_the_trunk_is_told(above, told):
-    """And where the origin of all coordinates is; a robot of 30 kg, whose box is 224 mm high."""
+def test_without_a_file_the_notes_locate_the_box_of_the_trunk(above, words):
+    """A robot of 30 kg, whose box is 224 mm high, with its origin at the centre of mass."""
     robot, device = robot_by_hand(30.0, (0.55, 1.6, 1.9)), driven_device()
     height = 0.5 * np.sqrt(6.0 * (0.55 + 1.6 - 1.9) / 30.0) + foot_of(device).wheel_height + above
     modules = tuple(
-        replace(each, position=np.array([*each.position[:2], height])) for each in device.modules
+        replace(module, position=np.array([*module.position[:2], height]))
+        for module in device.modules
     )
-    _, said = trunk_notes(replace(device, modules=modules), robot)
-    assert "the origin of the base frame is the robot's centre of mass" in said
-    assert "a box of 768 x 412 x 224 mm" in said
-    assert "its top is at z = 111.8 mm" in said
-    assert told in said
+    _, note = trunk_notes(replace(device, modules=modules), robot)
+    assert "the origin of the base frame is the robot's centre of mass" in note
+    assert "a box of 768 x 412 x 224 mm" in note
+    assert "its top is at z = 111.8 mm" in note
+    assert words in note
 
 
-def test_mujoco_weighs_it_where_it_is(robot, plated):
+def test_mujoco_has_the_plate_with_its_mass_and_place(robot, plated):
     model = robot_model(robot, plated).compiled
     bare = robot_model(robot, replace(plated, plate=None)).compiled
     assert sum(model.body_mass) - sum(bare.body_mass) == pytest.approx(plated.plate.mass)
-    body, own = model.body("ocs_plate"), plated.plate.own_mass_properties()
+    body, expected = model.body("ocs_plate"), plated.plate.own_mass_properties()
     np.testing.assert_allclose(body.pos, plated.plate.position, atol=1e-9)
-    np.testing.assert_allclose(body.ipos, own.com, atol=1e-9)
-    moments = np.linalg.eigvalsh(own.inertia)
+    np.testing.assert_allclose(body.ipos, expected.com, atol=1e-9)
+    moments = np.linalg.eigvalsh(expected.inertia)
     np.testing.assert_allclose(sorted(body.inertia), moments, rtol=1e-6)
 
 
 @pytest.mark.parametrize("name", ["ocs.urdf", "ocs.xml"])
-def test_snippets_weigh_it_too(robot, plated, name):
+def test_snippets_have_the_mass_of_the_plate(robot, plated, name):
     masses = []
     for device in (plated, replace(plated, plate=None)):
         text = snippets(device, robot)[name]
@@ -114,7 +115,7 @@ def test_snippets_weigh_it_too(robot, plated, name):
     assert masses[0] - masses[1] == pytest.approx(plated.plate.mass)
 
 
-def test_its_outline_is_a_drawing(robot, plated, tmp_path):
+def test_the_dxf_has_outline_and_holes_of_the_plate(robot, plated, tmp_path):
     ezdxf = pytest.importorskip("ezdxf")
     from ocs_design.export.dxf import write
 

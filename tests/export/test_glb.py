@@ -1,4 +1,4 @@
-"""The whole robot as GLB, read again by trimesh; the Khronos validator finds nothing either."""
+"""The whole robot as GLB, read back by trimesh; the Khronos validator reports nothing either."""
 
 import json
 
@@ -27,7 +27,7 @@ SHAPES = """<mujoco><asset><material name="red" rgba="1 0 0 0.5"/></asset><world
   </body></worldbody></mujoco>"""
 
 
-def drawn(robot, folder):
+def written(robot, folder):
     model = robot_model(robot, DEVICE).compiled
     path = folder / "robot.glb"
     path.write_bytes(robot_glb(model, robot.posture))
@@ -42,8 +42,8 @@ def document(path):
     return json.loads(content[20 : 20 + length])
 
 
-def seen_by_mujoco(model, posture):
-    """Bounds of everything visible [m] in the trunk's frame, as MuJoCo has it."""
+def visible_in_mujoco(model, posture):
+    """Vertices of all visible meshes in the trunk frame [m], by MuJoCo."""
     data = data_in_posture(model, posture)
     base, points = data.site("ocs_imu"), []
     for geom in np.flatnonzero((model.geom_group < 3) & (model.geom_type == 7)):
@@ -58,18 +58,18 @@ def seen_by_mujoco(model, posture):
 @pytest.mark.parametrize("path", LEGGED_PATHS[1::2], ids=LEGGED[1::2])
 def test_real_robots_stand_as_mujoco_has_them(path, tmp_path):
     robot = robot_at(path)
-    model, scene = drawn(robot, tmp_path)
-    points = seen_by_mujoco(model, robot.posture) @ UPRIGHT.T
+    model, scene = written(robot, tmp_path)
+    points = visible_in_mujoco(model, robot.posture) @ UPRIGHT.T
     vertices = scene.to_geometry().vertices
-    # Primitives may reach beyond the meshes, never fall short of them.
+    # Primitives may extend beyond the meshes.
     assert (vertices.min(axis=0) <= points.min(axis=0) + 1e-6).all()
     assert (vertices.max(axis=0) >= points.max(axis=0) - 1e-6).all()
     assert (tmp_path / "robot.glb").stat().st_size < 4 * 2**20
 
 
-def test_a_node_for_each_body_where_the_body_is(tmp_path):
+def test_each_body_has_a_node_in_its_place(tmp_path):
     robot = robot_at(SOLO12)
-    model, scene = drawn(robot, tmp_path)
+    model, scene = written(robot, tmp_path)
     data = data_in_posture(model, robot.posture)
     for index in range(1, model.nbody):
         body = data.body(index)
@@ -82,7 +82,7 @@ def test_a_node_for_each_body_where_the_body_is(tmp_path):
 def shapes(tmp_path):
     (tmp_path / "in.xml").write_text(SHAPES)
     robot = read_robot(tmp_path / "in.xml", trunk="trunk", posture="zero")
-    return drawn(robot, tmp_path)[1]
+    return written(robot, tmp_path)[1]
 
 
 @pytest.mark.parametrize(
@@ -107,16 +107,16 @@ def test_primitives_are_closed_solids_of_their_size(shapes, name, centre, half, 
     np.testing.assert_allclose((bounds[1] - bounds[0]) / 2.0, half, atol=1e-6)
 
 
-def test_what_viewers_hide_is_left_out(shapes):
+def test_hidden_geoms_are_left_out(shapes):
     assert {"ghost", "hidden"}.isdisjoint(shapes.graph.nodes)
 
 
 def test_colours_are_linear_and_opacity_is_kept(shapes, tmp_path):
-    made = document(tmp_path / "robot.glb")
-    material = {mesh["name"]: mesh["primitives"][0]["material"] for mesh in made["meshes"]}
-    red = made["materials"][material["ball"]]
+    gltf = document(tmp_path / "robot.glb")
+    material = {mesh["name"]: mesh["primitives"][0]["material"] for mesh in gltf["meshes"]}
+    red = gltf["materials"][material["ball"]]
     assert red["pbrMetallicRoughness"]["baseColorFactor"] == [1.0, 0.0, 0.0, 0.5]
     assert red["alphaMode"] == "BLEND"
-    box = made["materials"][material["box"]]["pbrMetallicRoughness"]["baseColorFactor"]
+    box = gltf["materials"][material["box"]]["pbrMetallicRoughness"]["baseColorFactor"]
     # IEC 61966-2-1: codes 128 and 64 of 255 are 21.6 % and 5.1 % of the light.
     np.testing.assert_allclose(box, [0.2140, 0.0509, 0.0, 1.0], atol=2e-4)

@@ -1,4 +1,4 @@
-"""Text put into XML files of every kind: the rest stays, and the result is still the same XML."""
+"""Text inserted into XML files of every kind: the rest stays byte for byte."""
 
 import re
 from xml.etree import ElementTree as ET
@@ -28,7 +28,7 @@ ENCODINGS = ["utf-8", "utf-8-sig", "utf-16", "utf-16-le-bom", "utf-16-be-bom", "
 
 
 def encoded(text, encoding):
-    """The text as a file, declared where XML wants it declared."""
+    """The text as bytes, with a declaration where XML needs one."""
     if encoding == "iso-8859-1":
         return f'<?xml version="1.0" encoding="{encoding}"?>\n{text}'.encode(encoding)
     if encoding.endswith("-bom"):
@@ -37,7 +37,7 @@ def encoded(text, encoding):
 
 
 def inserted(content):
-    """What was added, once the user's bytes are taken away from both ends."""
+    """The result and the bytes inserted into the user's."""
     result = insert_before_end(content, ADDITION)
     length = len(result) - len(content)
     places = [i for i in range(len(content) + 1) if content[:i] == result[:i]]

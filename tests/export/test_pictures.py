@@ -1,4 +1,4 @@
-"""Pictures: by OpenGL where there is one, by triangles else, and films."""
+"""Pictures by OpenGL, errors where it is missing, and the search for ffmpeg."""
 
 import subprocess
 
@@ -30,7 +30,7 @@ def box_scene():
     return Take(model, model.qpos0[None])
 
 
-def drawn(scenes):
+def rendered(scenes):
     try:
         return render_views(scenes)
     except MissingToolError as error:
@@ -45,7 +45,7 @@ def pixels(png):
 
 
 def extents(view):
-    """Width and height of what is not white [pixels]."""
+    """Width and height of the part that is not white [pixels]."""
     shown = np.argwhere(np.any(view < 250, axis=2))
     height, width = np.ptp(shown, axis=0) + 1
     return width, height
@@ -58,19 +58,19 @@ def test_png_keeps_every_pixel():
 
 @pytest.mark.slow
 def test_the_three_views_are_to_one_scale_and_in_first_angle():
-    sheet = pixels(drawn({"box": box_scene()})["box"])
+    sheet = pixels(rendered({"box": box_scene()})["box"])
     assert sheet.shape == (2 * HEIGHT, 2 * WIDTH, 3)
     front, side = extents(sheet[:HEIGHT, :WIDTH]), extents(sheet[:HEIGHT, WIDTH:])
     top = extents(sheet[HEIGHT:, :WIDTH])
     # Of 0.2 x 0.4 x 0.6 m: the front shows y and z, the side x and z, the view from above y and x.
     per_metre = front[1] / 0.6
-    for found, expected in ((front, (0.4, 0.6)), (side, (0.2, 0.6)), (top, (0.4, 0.2))):
-        np.testing.assert_allclose(found, np.array(expected) * per_metre, atol=3.0)
+    for extent, expected in ((front, (0.4, 0.6)), (side, (0.2, 0.6)), (top, (0.4, 0.2))):
+        np.testing.assert_allclose(extent, np.array(expected) * per_metre, atol=3.0)
     width, height = extents(sheet[HEIGHT:, WIDTH:])
     assert max(width / WIDTH, height / HEIGHT) > 0.6
 
 
-def test_the_box_around_what_is_shown_knows_the_pose_and_not_what_is_hidden():
+def test_the_shown_box_is_in_its_pose_and_excludes_hidden_geoms():
     model = mujoco.MjModel.from_xml_string(
         BOX.replace("<body>", '<body pos="1 2 3" euler="0 0 90">')
     )
@@ -88,24 +88,24 @@ def test_a_robot_with_its_device():
         pictures = draw_pictures(device, robot, robot_model(robot, device))
     except MissingToolError as error:
         pytest.skip(str(error))
-    # Nothing stands still in the paper's device, so that a module is its wheel.
+    # The paper's device has no carriers, so that a module is its wheel.
     assert list(pictures) == ["wheel", "robot"]
     wheel = pixels(pictures["wheel"])
-    across, _ = extents(wheel[:HEIGHT, :WIDTH])
-    side, tall = extents(wheel[:HEIGHT, WIDTH:])
-    assert side == pytest.approx(tall, abs=2)
-    assert across / side == pytest.approx(
+    width, _ = extents(wheel[:HEIGHT, :WIDTH])
+    side, height = extents(wheel[:HEIGHT, WIDTH:])
+    assert side == pytest.approx(height, abs=2)
+    assert width / side == pytest.approx(
         device.flywheel.height / (2.0 * device.flywheel.outer_radius), abs=0.02
     )
 
 
-def test_without_opengl_the_reason_is_told(monkeypatch):
+def test_without_opengl_the_error_has_the_reason(monkeypatch):
     monkeypatch.setenv("MUJOCO_GL", "none such")
     with pytest.raises(MissingToolError, match=r"no pictures, because none such: .*invalid value"):
         render_views({"box": box_scene()})
 
 
-def test_a_driver_that_kills_or_hangs_the_process_is_only_told(monkeypatch):
+def test_a_driver_that_crashes_or_hangs_is_an_error(monkeypatch):
     def killed(command, **options):
         return subprocess.CompletedProcess(command, -11, b"", b"")
 
@@ -121,22 +121,22 @@ def test_a_driver_that_kills_or_hangs_the_process_is_only_told(monkeypatch):
         render_views({"box": box_scene()})
 
 
-@pytest.mark.parametrize("there", ["the system's own", "the extra's", "no binary", "nothing"])
-def test_the_systems_own_ffmpeg_comes_first_else_that_of_the_extra(there, tmp_path, monkeypatch):
+@pytest.mark.parametrize("installed", ["system", "extra", "no binary", "nothing"])
+def test_ffmpeg_of_the_system_precedes_that_of_the_extra(installed, tmp_path, monkeypatch):
     def refuse():
         raise RuntimeError("No ffmpeg exe could be found")
 
     program = tmp_path / "ffmpeg"
     monkeypatch.setenv("PATH", str(tmp_path))
-    if there == "the system's own":
+    if installed == "system":
         program.write_text("#!/bin/sh\n")
         program.chmod(0o755)
         assert ffmpeg_program() == str(program)
-    elif there == "the extra's":
-        done = subprocess.run([ffmpeg_program(), "-version"], capture_output=True, check=True)
-        assert done.stdout.startswith(b"ffmpeg version")
+    elif installed == "extra":
+        process = subprocess.run([ffmpeg_program(), "-version"], capture_output=True, check=True)
+        assert process.stdout.startswith(b"ffmpeg version")
     else:
         monkeypatch.setattr(imageio_ffmpeg, "get_ffmpeg_exe", refuse)
-        if there == "nothing":
+        if installed == "nothing":
             monkeypatch.setattr(programs, "find_spec", lambda name: None)
         assert ffmpeg_program() is None

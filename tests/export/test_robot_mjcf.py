@@ -1,4 +1,4 @@
-"""Whole robots with their device as MJCF, read again by MuJoCo."""
+"""Whole robots with their device as MJCF, read back by MuJoCo."""
 
 import re
 import shutil
@@ -26,7 +26,7 @@ from ocs_design.simulation.world_builder import WorldBuilder
 
 
 def check_same(model, original):
-    """Numbers are those of the model that was written, not rounded ones."""
+    """The numbers are those of the model that was written, not rounded."""
     for field in EXACT:
         np.testing.assert_allclose(
             getattr(model, field), getattr(original, field), rtol=1e-12, atol=1e-15, err_msg=field
@@ -42,7 +42,7 @@ EXACT = (
 
 
 def written(robot, device, folder):
-    """The robot's file, read as `at_home` does."""
+    """Model and data at `ocs_home` of the robot's file."""
     return at_home(export_robot_mjcf(robot_model(robot, device), folder / "robot.xml"))
 
 
@@ -69,7 +69,7 @@ def test_every_number_of_a_robot_is_written_exactly(form, tmp_path):
     check_wheels_in_mujoco(model, device, robot.trunk)
 
 
-def test_meshes_of_an_mjcf_robot_go_along(tmp_path):
+def test_meshes_of_an_mjcf_robot_are_copied(tmp_path):
     (tmp_path / "in" / "a").mkdir(parents=True)
     (tmp_path / "in" / "b").mkdir()
     cube = "\n".join(f"v {x} {y} {z}" for x in (0, 1) for y in (0, 1) for z in (0, 1))
@@ -94,8 +94,8 @@ def test_meshes_of_an_mjcf_robot_go_along(tmp_path):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("path", LEGGED_PATHS[::3], ids=LEGGED[::3])
-def test_a_free_flight_keeps_its_angular_momentum_as_the_file_stands(path, tmp_path):
-    """The gate of the flights, `MOMENTUM_GATE`, for 2 s with fast wheels and a turning trunk."""
+def test_a_free_flight_of_the_file_conserves_angular_momentum(path, tmp_path):
+    """2 s with fast wheels and a rotating trunk, within the tolerance of the validation flights."""
     robot = robot_at(path)
     device = scaled_device(robot)
     model, data = written(robot, device, tmp_path)
@@ -103,7 +103,7 @@ def test_a_free_flight_keeps_its_angular_momentum_as_the_file_stands(path, tmp_p
     data.qvel[3:6] = 0.5, 2.0, 0.3
     for name, speed in zip(joint_names(device), (600.0, -300.0), strict=True):
         data.joint(name).qvel[0] = speed
-    # A motor that brakes its wheel moves the trunk besides.
+    # A motor that brakes its wheel rotates the trunk as well.
     data.actuator("ocs_left").ctrl[0] = -300.0 * device.flywheel.spin_inertia
     momentum = []
     for _ in range(200):
@@ -112,9 +112,9 @@ def test_a_free_flight_keeps_its_angular_momentum_as_the_file_stands(path, tmp_p
         momentum.append(data.subtree_angmom[1].copy())
         mujoco.mj_step(model, data, round(0.01 / model.opt.timestep))
     assert data.time == pytest.approx(2.0)
-    moved = np.linalg.norm(momentum[0])
-    assert moved > 100.0 * device.flywheel.spin_inertia
-    assert np.linalg.norm(np.array(momentum) - momentum[0], axis=1).max() < MOMENTUM_GATE * moved
+    initial = np.linalg.norm(momentum[0])
+    assert initial > 100.0 * device.flywheel.spin_inertia
+    assert np.linalg.norm(np.array(momentum) - momentum[0], axis=1).max() < MOMENTUM_GATE * initial
 
 
 @pytest.mark.slow
@@ -139,7 +139,7 @@ def test_a_quadruped_stands_in_its_scene(path, tmp_path):
     assert np.abs(posture).max() < 0.05
 
 
-def test_its_drives_and_options_are_those_of_the_flights(tmp_path):
+def test_drives_and_options_are_those_of_the_flights(tmp_path):
     robot, device = robot_at(SOLO12), paper_device()
     model, _ = written(robot, device, tmp_path)
     world = WorldBuilder(robot, device).flight(default_maneuvers(robot)[0], Wheels.ACTIVE)
@@ -166,7 +166,7 @@ def test_joints_in_no_leg_are_held_until_they_are_released(tmp_path):
         assert data.joint(name).qpos[0] == pytest.approx(robot.posture[name], abs=1e-2)
 
 
-def test_links_meet_the_floor_and_not_each_other_unless_their_mjcf_says_so(tmp_path):
+def test_links_collide_with_the_floor_alone_unless_their_mjcf_says_so(tmp_path):
     model = compiled(robot_at(LEGGED_PATHS[3]), paper_device())
     links = np.array(["flywheel" not in model.geom(i).name for i in range(model.ngeom)])
     assert not model.geom_contype.any()
@@ -176,21 +176,21 @@ def test_links_meet_the_floor_and_not_each_other_unless_their_mjcf_says_so(tmp_p
     assert own.geom_contype[own.geom_conaffinity == 1].all()
 
 
-def test_actuators_of_the_robots_own_get_no_others_beside_them(tmp_path):
+def test_no_actuators_are_added_to_those_of_the_robot(tmp_path):
     (tmp_path / "in.xml").write_text(MJCF)
     robot = read_robot(tmp_path / "in.xml", posture="zero", joints={"swing": 0.3})
     model, data = written(robot, paper_device(), tmp_path)
     assert [model.actuator(i).name for i in range(model.nu)] == ["swing", "ocs_left", "ocs_right"]
-    # A position servo at rest gives no torque where it is told to be.
+    # A position servo holds the posture where its command is the joint's position.
     assert data.joint("swing").qpos[0] == 0.3
     assert data.actuator("swing").ctrl[0] == pytest.approx(0.3)
     assert model.opt.integrator == mujoco.mjtIntegrator.mjINT_RK4
 
 
-def test_the_floor_of_the_scene_meets_what_can_touch_and_both_wheels(tmp_path):
+def test_the_floor_of_the_scene_collides_with_both_wheels(tmp_path):
     write(Subject.of(robot_at(SOLO12), paper_device(), "robot"), tmp_path)
     model, data = at_home(tmp_path / "scene.xml")
-    # On its back, its wheels lowest.
+    # The robot lies on its back, the wheels are lowest.
     data.qpos[2:7] = 0.05, 0.0, 1.0, 0.0, 0.0
     mujoco.mj_forward(model, data)
     touching = {model.geom(i).name for i in data.contact.geom.ravel().tolist()}
@@ -218,13 +218,13 @@ def test_the_readme_has_the_designs_figures_and_a_picture(tmp_path):
         assert (tmp_path / "".join(file)).exists(), file
 
 
-def test_wheels_look_like_rims_and_touch_like_cylinders(tmp_path):
+def test_wheels_look_like_rims_and_collide_as_cylinders(tmp_path):
     model = mujoco_model(robot_by_hand(2.5, (0.03, 0.05, 0.07)), paper_device(), tmp_path)
     rim = model.mesh("ocs_flywheel")
     vertices = model.mesh_vert[rim.vertadr[0] : rim.vertadr[0] + rim.vertnum[0]].astype(float)
-    # MuJoCo turns meshes into their principal axes and keeps how.
-    turned = Rotation.from_quat(model.mesh_quat[rim.id], scalar_first=True).apply(vertices)
-    radii = np.linalg.norm((turned + model.mesh_pos[rim.id])[:, :2], axis=1)
+    # MuJoCo rotates meshes into their principal axes and keeps the rotation.
+    rotated = Rotation.from_quat(model.mesh_quat[rim.id], scalar_first=True).apply(vertices)
+    radii = np.linalg.norm((rotated + model.mesh_pos[rim.id])[:, :2], axis=1)
     wheel = paper_device().flywheel
     np.testing.assert_allclose(
         [radii.min(), radii.max()], [wheel.inner_radius, wheel.outer_radius], rtol=1e-4

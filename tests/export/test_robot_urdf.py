@@ -1,4 +1,4 @@
-"""Whole robots with their device as URDF, read again by Pinocchio and by our own reader."""
+"""Whole robots with their device as URDF, read back by Pinocchio and by our own reader."""
 
 import numpy as np
 import pytest
@@ -13,7 +13,7 @@ from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.reader import read_robot
 from ocs_design.robot.robot import Robot
 
-HAND = robot_by_hand(2.5, (0.03, 0.05, 0.07, 0.001, 0.002, -0.003), com=(0.01, 0.0, -0.02))
+BY_HAND = robot_by_hand(2.5, (0.03, 0.05, 0.07, 0.001, 0.002, -0.003), com=(0.01, 0.0, -0.02))
 
 
 def exported_text(robot: Robot, device=None) -> str:
@@ -34,12 +34,12 @@ def test_the_users_file_stays_byte_for_byte(path):
 
 def test_a_robot_by_hand_is_written_in_full():
     device = paper_device()
-    model = pinocchio_model(exported_text(HAND, device))
-    check_wheels_in_pinocchio(model, device, HAND.trunk)
+    model = pinocchio_model(exported_text(BY_HAND, device))
+    check_wheels_in_pinocchio(model, device, BY_HAND.trunk)
     body = model.inertias[model.getJointId("root_joint")]
-    assert body.mass == HAND.mass
-    np.testing.assert_allclose(body.lever, HAND.com, atol=1e-15)
-    np.testing.assert_allclose(body.inertia, HAND.inertia, atol=1e-15)
+    assert body.mass == BY_HAND.mass
+    np.testing.assert_allclose(body.lever, BY_HAND.com, atol=1e-15)
+    np.testing.assert_allclose(body.inertia, BY_HAND.inertia, atol=1e-15)
 
 
 def test_an_mjcf_robot_becomes_the_same_robot_in_urdf(tmp_path):
@@ -48,17 +48,19 @@ def test_an_mjcf_robot_becomes_the_same_robot_in_urdf(tmp_path):
     text = exported_text(robot, device)
     (tmp_path / "robot.urdf").write_text(text)
     check_wheels_in_pinocchio(pinocchio_model(text), device, robot.trunk)
-    again = read_robot(tmp_path / "robot.urdf", trunk=robot.trunk, posture="zero")
+    reread = read_robot(tmp_path / "robot.urdf", trunk=robot.trunk, posture="zero")
     rng = np.random.default_rng(0)
     for _ in range(10):
         posture = {name: rng.uniform(-1.0, 1.0) for name in robot.tree.joints}
-        ours = robot.tree.locked_mass_properties(posture, "rear")
-        theirs = again.tree.locked_mass_properties(posture, "rear")
-        ocs = again.tree.bodies[again.tree.body_of_link["ocs_left_flywheel"]]
-        assert theirs.mass - 2.0 * ocs.mass_properties.mass == pytest.approx(ours.mass, rel=1e-12)
-    assert set(again.tree.joints) == {*robot.tree.joints, "ocs_left", "ocs_right"}
+        expected = robot.tree.locked_mass_properties(posture, "rear")
+        exported = reread.tree.locked_mass_properties(posture, "rear")
+        ocs = reread.tree.bodies[reread.tree.body_of_link["ocs_left_flywheel"]]
+        assert exported.mass - 2.0 * ocs.mass_properties.mass == pytest.approx(
+            expected.mass, rel=1e-12
+        )
+    assert set(reread.tree.joints) == {*robot.tree.joints, "ocs_left", "ocs_right"}
     for name, joint in robot.tree.joints.items():
-        limits = (again.tree.joints[name].lower, again.tree.joints[name].upper)
+        limits = (reread.tree.joints[name].lower, reread.tree.joints[name].upper)
         assert limits == (joint.lower, joint.upper)
 
 
@@ -72,8 +74,8 @@ def test_an_mjcf_robot_becomes_the_same_robot_in_urdf(tmp_path):
         ("link", "ocs_plate"),
     ],
 )
-def test_a_clash_of_names_is_an_error_that_says_so(tmp_path, element, name):
-    """Names of motors and of a plate are free where there are none."""
+def test_a_clash_of_names_is_an_error(tmp_path, element, name):
+    """Names of motors and of a plate are free where the device has none."""
     link, joint = (name, "weld") if element == "link" else ("other", name)
     extra = (
         f'<link name="{link}"/><joint name="{joint}" type="fixed">'
@@ -94,5 +96,5 @@ def test_names_that_need_escaping_are_escaped(tmp_path):
     robot = read_robot(tmp_path / "in.urdf")
     assert robot.trunk == 'a&"b--'
     (tmp_path / "out.urdf").write_bytes(robot_urdf(robot, paper_device()))
-    again = read_robot(tmp_path / "out.urdf", trunk=robot.trunk)
-    assert "ocs_left" in again.tree.joints
+    reread = read_robot(tmp_path / "out.urdf", trunk=robot.trunk)
+    assert "ocs_left" in reread.tree.joints

@@ -1,4 +1,4 @@
-"""The ROS 2 package, read again by xacro, Pinocchio, catkin_pkg and Python's own compiler."""
+"""The ROS 2 package, read back by xacro, Pinocchio, catkin_pkg and Python's compiler."""
 
 from xml.etree import ElementTree as ET
 
@@ -18,7 +18,7 @@ from ocs_design.robot.reader import read_robot
 
 
 def exported(path, folder):
-    """Robot, the package's folder, and its xacro expanded as a launch file does it."""
+    """Robot, folder of the package, and its xacro expanded as in a launch file."""
     robot = read_robot(path)
     (note,) = write(Subject.of(robot, driven_device(), "a-1"), folder)
     assert "no maintainer" in note
@@ -39,19 +39,19 @@ def test_an_independent_reader_finds_mass_inertia_axes_limits_and_meshes(path, t
     assert set(names) == set(robot.tree.joints)
     before = pinocchio_model(robot.content.decode())
     for name in names:
-        now, then = (each.joints[each.getJointId(name)] for each in (model, before))
-        assert now.shortname() == then.shortname()
-        if now.nq == 1:
+        joint, original = (part.joints[part.getJointId(name)] for part in (model, before))
+        assert joint.shortname() == original.shortname()
+        if joint.nq == 1:
             for field in ("lowerPositionLimit", "upperPositionLimit"):
-                assert getattr(model, field)[now.idx_q] == getattr(before, field)[then.idx_q]
-        assert model.effortLimit[now.idx_v] == before.effortLimit[then.idx_v]
-        inertias = [each.inertias[each.getJointId(name)].matrix() for each in (model, before)]
+                assert getattr(model, field)[joint.idx_q] == getattr(before, field)[original.idx_q]
+        assert model.effortLimit[joint.idx_v] == before.effortLimit[original.idx_v]
+        inertias = [part.inertias[part.getJointId(name)].matrix() for part in (model, before)]
         np.testing.assert_allclose(*inertias, rtol=0.0, atol=1e-12 * robot.mass)
     wheel = model.joints[model.getJointId("ocs_left")].idx_v
     assert (model.effortLimit[wheel], model.velocityLimit[wheel]) == (1.0, 650.4)
     meshes = {mesh.get("filename") for mesh in ET.fromstring(text).iter("mesh")}
     address = f"package://{package.name}/"
-    assert all((package / each.removeprefix(address)).is_file() for each in meshes)
+    assert all((package / mesh.removeprefix(address)).is_file() for mesh in meshes)
     assert len(meshes) == len(list((package / "meshes").iterdir()))
 
 
@@ -64,17 +64,17 @@ def test_every_moving_joint_is_in_ros2_control_and_in_a_controller(tmp_path):
     for name, joint in robot.tree.joints.items():
         (command,) = declared[name].iter("command_interface")
         assert command.get("name") == "position"
-        assert [float(each.text) for each in command] == [joint.lower, joint.upper]
+        assert [float(limit.text) for limit in command] == [joint.lower, joint.upper]
         start = declared[name].findtext("state_interface[@name='position']/param")
         assert float(start) == robot.posture[name]
     (command,) = declared["ocs_left"].iter("command_interface")
     assert command.get("name") == "effort"
-    assert [float(each.text) for each in command] == [-1.0, 1.0]
+    assert [float(limit.text) for limit in command] == [-1.0, 1.0]
     controllers = yaml.safe_load((package / "config" / "controllers.yaml").read_text())
-    specified = {each: controllers[each]["ros__parameters"] for each in controllers}
-    moved = [*specified["joint_controller"]["joints"], *specified["ocs_controller"]["joints"]]
+    parameters = {name: controllers[name]["ros__parameters"] for name in controllers}
+    moved = [*parameters["joint_controller"]["joints"], *parameters["ocs_controller"]["joints"]]
     assert moved == list(declared)
-    manager = specified["controller_manager"]
+    manager = parameters["controller_manager"]
     assert set(manager) - {"update_rate", "joint_state_broadcaster"} == set(controllers) - {
         "controller_manager"
     }
@@ -93,7 +93,7 @@ def test_joints_that_follow_others_take_no_commands(tmp_path):
     assert followers.isdisjoint(controllers["joint_controller"]["ros__parameters"]["joints"])
 
 
-def test_a_robot_that_declares_its_joints_itself_keeps_that(tmp_path):
+def test_joints_that_the_robot_declares_are_not_declared_again(tmp_path):
     own = '<ros2_control name="own" type="system"><joint name="FL_HAA"/></ros2_control>'
     path = tmp_path / "robot.urdf"
     path.write_text(SOLO12.read_text().replace("</robot>", own + "</robot>"))
@@ -105,7 +105,7 @@ def test_a_robot_that_declares_its_joints_itself_keeps_that(tmp_path):
     assert len(named) == len(set(named)) == 14
 
 
-def test_the_manifest_is_one_and_names_what_the_package_uses(tmp_path):
+def test_the_manifest_is_valid_and_lists_the_dependencies(tmp_path):
     _, package, _ = exported(SOLO12, tmp_path)
     manifest = parse_package(str(package))
     manifest.validate()
@@ -114,8 +114,8 @@ def test_the_manifest_is_one_and_names_what_the_package_uses(tmp_path):
     launch = (package / "launch" / "display.launch.py").read_text()
     compile(launch, "display.launch.py", "exec")
     assert f"'{package.name}'" in launch
-    needed = {each.name for each in manifest.exec_depends}
-    assert {part.split("'")[1] for part in launch.split("package=")[1:]} <= needed
+    dependencies = {dependency.name for dependency in manifest.exec_depends}
+    assert {part.split("'")[1] for part in launch.split("package=")[1:]} <= dependencies
     view = yaml.safe_load((package / "rviz" / "display.rviz").read_text())
     assert view["Visualization Manager"]["Global Options"]["Fixed Frame"] == "base_link"
     assert {path.name for path in package.iterdir() if path.is_dir()} <= set(
@@ -133,23 +133,23 @@ def test_meshes_of_one_name_from_two_folders_stay_two(tmp_path):
         f'<visual><geometry><mesh filename="{folder}/part.obj"/></geometry></visual>'
         for folder in "ab"
     )
-    lost = '<visual><geometry><mesh filename="no/such.stl"/></geometry></visual>'
+    missing = '<visual><geometry><mesh filename="no/such.stl"/></geometry></visual>'
     (tmp_path / "r.urdf").write_text(
         '<robot name="r"><link name="trunk"><inertial><mass value="1"/><inertia ixx="1" iyy="1" '
-        f'izz="1" ixy="0" ixz="0" iyz="0"/></inertial>{shapes}{lost}</link></robot>'
+        f'izz="1" ixy="0" ixz="0" iyz="0"/></inertial>{shapes}{missing}</link></robot>'
     )
     (tmp_path / "out").mkdir()
     subject = Subject.of(read_robot(tmp_path / "r.urdf"), driven_device(), "r")
     (_, note) = write(subject, tmp_path / "out")
     assert "no/such.stl" in note
     (urdf,) = (tmp_path / "out").rglob("r_ocs.urdf")
-    first, second, *_ = (each.get("filename") for each in ET.parse(urdf).getroot().iter("mesh"))
+    first, second, *_ = (mesh.get("filename") for mesh in ET.parse(urdf).getroot().iter("mesh"))
     for address, folder in ((first, "a"), (second, "b")):
         copy = urdf.parents[1] / "meshes" / address.rpartition("/")[2]
         assert copy.read_bytes() == (tmp_path / folder / "part.obj").read_bytes()
 
 
-def test_a_robot_that_came_as_mjcf_gets_a_package_too(tmp_path):
+def test_an_mjcf_robot_gets_a_package_too(tmp_path):
     (tmp_path / "in.xml").write_text(MJCF)
     (tmp_path / "out").mkdir()
     robot, package, text = exported(tmp_path / "in.xml", tmp_path / "out")

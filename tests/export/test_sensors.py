@@ -1,4 +1,4 @@
-"""What MuJoCo measures of the device, and that the robot's own measurements and states stay."""
+"""Sensors of the device in MuJoCo; the robot's own sensors and keyframes stay."""
 
 import mujoco
 import numpy as np
@@ -34,7 +34,7 @@ BRANCHED = """<mujoco model="branched">
 
 
 def with_keyframes(spec):
-    """The model with two keyframes of random states in every coordinate."""
+    """The model with two keyframes of random states."""
     model = spec.compile()
     random = np.random.default_rng(1)
     for name in ("home", "jump"):
@@ -57,10 +57,10 @@ def states(model, key):
     mujoco.mj_resetDataKeyframe(model, data, model.key(key).id)
     joints = [data.joint(i) for i in range(model.njnt)]
     drives = [data.actuator(i) for i in range(model.nu)]
-    found = {f"q {joint.name}": joint.qpos.copy() for joint in joints}
-    found |= {f"v {joint.name}": joint.qvel.copy() for joint in joints}
-    found |= {f"u {drive.name}": drive.ctrl.copy() for drive in drives}
-    return found | {"act": data.act.copy(), "time": np.array([data.time])}
+    values = {f"q {joint.name}": joint.qpos.copy() for joint in joints}
+    values |= {f"v {joint.name}": joint.qvel.copy() for joint in joints}
+    values |= {f"u {drive.name}": drive.ctrl.copy() for drive in drives}
+    return values | {"act": data.act.copy(), "time": np.array([data.time])}
 
 
 def check_keyframes_kept(before, after):
@@ -69,7 +69,7 @@ def check_keyframes_kept(before, after):
         ours, theirs = states(after, key), states(before, key)
         for name, values in theirs.items():
             np.testing.assert_allclose(ours[name], values, rtol=1e-12, atol=1e-15, err_msg=name)
-        # Drives that we add to a robot without any hold what the keyframe shows.
+        # Drives added to a robot without any hold the posture of the keyframe.
         added = range(0 if before.nu else after.nu)
         drives = {f"u {after.actuator(i).name}" for i in added}
         assert {name for name in ours if name not in theirs} == drives | {
@@ -79,7 +79,7 @@ def check_keyframes_kept(before, after):
             np.testing.assert_allclose(ours[name], theirs[f"q{name[1:]}"], atol=1e-15)
 
 
-def written_again(path, trunk, folder):
+def exported_model(path, trunk, folder):
     robot = read_robot(path, trunk=trunk, posture="zero")
     folder.mkdir()
     return mujoco_model(robot, DEVICE, folder)
@@ -89,20 +89,20 @@ def written_again(path, trunk, folder):
 def branched(tmp_path):
     spec = with_keyframes(mujoco.MjSpec.from_string(BRANCHED))
     (tmp_path / "in.xml").write_text(spec.to_xml())
-    # What `to_xml` rounds is what the user's file then says.
+    # Numbers that `to_xml` rounds count as those of the user's file.
     return tmp_path / "in.xml"
 
 
 @pytest.mark.parametrize("trunk", ["trunk", "leg", "head", "tail"])
 def test_keyframes_of_a_branched_robot_stay(branched, tmp_path, trunk):
     before = mujoco.MjModel.from_xml_path(str(branched))
-    check_keyframes_kept(before, written_again(branched, trunk, tmp_path / "out"))
+    check_keyframes_kept(before, exported_model(branched, trunk, tmp_path / "out"))
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("path", LEGGED_PATHS[::3], ids=LEGGED[::3])
 def test_keyframes_of_real_robots_stay(path, tmp_path):
-    """As MJCF, of which example-robot-data has none: written by us, without a device."""
+    """Written as MJCF without a device first, since example-robot-data has no MJCF."""
     spec = build_spec(robot_at(path), visuals=False).spec
     # The reader names what has no name.
     spec.joints[0].name = "float"
@@ -112,17 +112,17 @@ def test_keyframes_of_real_robots_stay(path, tmp_path):
     (tmp_path / "in.xml").write_text(spec.to_xml())
     trunk = robot_at(path).trunk
     before = mujoco.MjModel.from_xml_path(str(tmp_path / "in.xml"))
-    check_keyframes_kept(before, written_again(tmp_path / "in.xml", trunk, tmp_path / "out"))
+    check_keyframes_kept(before, exported_model(tmp_path / "in.xml", trunk, tmp_path / "out"))
 
 
 def test_the_robots_own_sensors_keep_their_places(branched, tmp_path):
     before = mujoco.MjModel.from_xml_path(str(branched))
-    after = written_again(branched, "trunk", tmp_path / "out")
+    after = exported_model(branched, "trunk", tmp_path / "out")
     for i in range(before.nsensor):
         assert after.sensor(i).name == before.sensor(i).name
         assert after.sensor_adr[i] == before.sensor_adr[i]
-    own = [after.sensor(i).name for i in range(before.nsensor, after.nsensor)]
-    assert own == [
+    added = [after.sensor(i).name for i in range(before.nsensor, after.nsensor)]
+    assert added == [
         "ocs_left_velocity",
         "ocs_left_torque",
         "ocs_right_velocity",
@@ -133,7 +133,7 @@ def test_the_robots_own_sensors_keep_their_places(branched, tmp_path):
 
 
 def test_sensors_measure_what_their_names_say(tmp_path):
-    model = written_again(SOLO12, None, tmp_path / "out")
+    model = exported_model(SOLO12, None, tmp_path / "out")
     data = mujoco.MjData(model)
     data.joint("ocs_left").qvel[:] = 12.0
     data.joint("ocs_right").qvel[:] = -7.0

@@ -14,20 +14,20 @@ def body(mesh, color, at=(0.0, 0.0, 0.0)):
     return ShownBody("link", Placement(np.eye(3), np.array(at)), (surface,))
 
 
-def drawn(image):
+def not_white(image):
     return (image < 250).any(axis=2)
 
 
 def test_a_ball_is_a_disc_that_fills_the_picture():
     image = still_picture([body(trimesh.creation.icosphere(subdivisions=4), RED)])
     assert image.shape == (HEIGHT, WIDTH, 3)
-    across, down = (np.ptp(np.flatnonzero(drawn(image).any(axis=axis))) + 1 for axis in (0, 1))
-    assert across == pytest.approx(down, abs=2)
-    assert down == pytest.approx(HEIGHT / 1.06, rel=0.01)
-    assert drawn(image).sum() == pytest.approx(np.pi / 4.0 * down**2, rel=0.01)
+    width, height = (np.ptp(np.flatnonzero(not_white(image).any(axis=axis))) + 1 for axis in (0, 1))
+    assert width == pytest.approx(height, abs=2)
+    assert height == pytest.approx(HEIGHT / 1.06, rel=0.01)
+    assert not_white(image).sum() == pytest.approx(np.pi / 4.0 * height**2, rel=0.01)
 
 
-def test_what_is_in_front_hides_what_is_behind():
+def test_a_body_in_front_hides_one_behind():
     ball = trimesh.creation.icosphere(subdivisions=3, radius=0.5)
     towards = np.array([np.cos(0.38) * np.cos(-0.65), np.cos(0.38) * np.sin(-0.65), np.sin(0.38)])
     for near, far in ((RED, BLUE), (BLUE, RED)):
@@ -36,7 +36,7 @@ def test_what_is_in_front_hides_what_is_behind():
         assert np.argmax(middle) == np.argmax(near[:3])
 
 
-def test_glass_is_left_out_and_nothing_is_white():
+def test_glass_is_left_out_and_an_empty_picture_is_white():
     glass = body(trimesh.creation.box(), (0.0, 0.0, 0.0, 0.3))
-    assert not drawn(still_picture([glass])).any()
-    assert not drawn(still_picture([])).any()
+    assert not not_white(still_picture([glass])).any()
+    assert not not_white(still_picture([])).any()

@@ -1,6 +1,6 @@
-"""The device in SDF, its numbers read by another XML reader.
+"""The device in SDF, read by a general XML reader.
 
-libsdformat 12.3, Gazebo's own reader, takes the files without a word; it is not on PyPI.
+libsdformat 12.3, Gazebo's own reader, accepts the files without a warning; it is not on PyPI.
 """
 
 from collections import Counter
@@ -37,7 +37,7 @@ def inertial(link):
 
 
 @pytest.mark.parametrize("device", [paper_device(), driven_device(), driven_device(0.0)])
-def test_wheels_stand_turn_and_weigh_as_designed(device):
+def test_wheels_have_the_designed_pose_axis_and_mass(device):
     model, wheel = model_of(device, TrunkOnly()), device.flywheel
     for module in device.modules:
         link = link_of(model, f"ocs_{module.name}_flywheel")
@@ -67,14 +67,14 @@ def test_motors_are_fixed_to_the_trunk():
 
 
 @pytest.mark.parametrize("device", [paper_device(), driven_device()])
-def test_no_two_of_a_model_have_one_name(device):
-    """In SDF links, joints and frames share their names' space."""
-    names = Counter(each.get("name") for each in model_of(device, TrunkOnly()))
+def test_names_within_a_model_are_unique(device):
+    """In SDF links, joints and frames share one namespace."""
+    names = Counter(element.get("name") for element in model_of(device, TrunkOnly()))
     names.pop(None, None)
     assert max(names.values()) == 1
 
 
-def test_armature_is_a_remark():
+def test_armature_is_a_comment():
     text = snippet_sdf(driven_device(drive=geared(4.0)), TrunkOnly())
     assert f"<!-- armature {geared(4.0).armature!r} kg m^2 is left out -->" in text
 

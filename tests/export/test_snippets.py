@@ -1,4 +1,4 @@
-"""The device alone, put into robots the way that each snippet's own comment says."""
+"""The device alone, inserted into robots as the comment of each snippet says."""
 
 import re
 from dataclasses import replace
@@ -40,7 +40,7 @@ from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.mujoco_model import build_spec
 
 DEVICE = driven_device()
-THIRD = {
+OTHER_ROBOTS = {
     "solo12": "solo_description/robots/solo12",
     "a1": "a1_description/urdf/a1",
     "anymal_c": "anymal_c_simple_description/urdf/anymal",
@@ -51,28 +51,28 @@ THIRD = {
 }
 
 
-@pytest.fixture(params=THIRD.values(), ids=THIRD)
-def third(request, tmp_path):
-    """Another robot as it came, with the snippets of ours beside it."""
+@pytest.fixture(params=OTHER_ROBOTS.values(), ids=OTHER_ROBOTS)
+def other_robot(request, tmp_path):
+    """A robot as published, with the snippets of the device beside it."""
     for name, text in snippets(DEVICE, TrunkOnly()).items():
         (tmp_path / name).write_text(text)
     return robot_at(ROBOTS / f"{request.param}.urdf", posture="zero")
 
 
 def pasted(robot, *snippets):
-    """The robot's URDF with what stands between the marks of each, for its own trunk."""
+    """The robot's URDF with the marked part of each snippet, for the robot's trunk."""
     text = robot.content.decode()
     for snippet in snippets:
-        words = snippet.read_text()
-        assert words.count("<!-- from here -->") == words.count("<!-- to here -->") == 1
-        part = words.split("<!-- from here -->")[1].split("<!-- to here -->")[0]
+        content = snippet.read_text()
+        assert content.count("<!-- from here -->") == content.count("<!-- to here -->") == 1
+        part = content.split("<!-- from here -->")[1].split("<!-- to here -->")[0]
         part = part.replace(f'<parent link="{TRUNK}"/>', f'<parent link="{robot.trunk}"/>')
         text = text.replace("</robot>", part + "</robot>")
     return text
 
 
 def with_macro(robot, folder, arguments=""):
-    """The robot's URDF as xacro with the two lines of the macro's comment."""
+    """The robot's URDF as xacro, with the two lines that the macro's comment gives."""
     comment = (folder / "ocs.urdf.xacro").read_text().partition("-->")[0]
     include, call = re.findall(r"<xacro:.*/>", comment)
     call = call.replace(f'parent="{TRUNK}"', f'parent="{robot.trunk}"{arguments}')
@@ -86,7 +86,7 @@ def with_macro(robot, folder, arguments=""):
 
 
 def with_attachment(robot, folder):
-    """The robot as MJCF with the two elements of the model's comment."""
+    """The robot as MJCF, with the two elements that the model's comment gives."""
     spec = build_spec(robot, visuals=False).spec
     root = ET.fromstring(precise_xml(spec, spec.compile(), assets="."))
     for name, content in spec.assets.items():
@@ -113,22 +113,22 @@ FORMS = {
 
 
 @pytest.mark.parametrize("form", FORMS)
-def test_urdf_and_macro_go_into_any_robot(third, tmp_path, form):
-    text = FORMS[form](third, tmp_path)
-    check_total(total_by_pinocchio(text, third), third, DEVICE)
+def test_urdf_and_macro_go_into_any_robot(other_robot, tmp_path, form):
+    text = FORMS[form](other_robot, tmp_path)
+    check_total(total_by_pinocchio(text, other_robot), other_robot, DEVICE)
     model = pinocchio_model(text)
-    check_wheels_in_pinocchio(model, DEVICE, third.trunk)
+    check_wheels_in_pinocchio(model, DEVICE, other_robot.trunk)
     wheel = model.idx_vs[model.getJointId("ocs_left")]
     assert model.upperEffortLimit[wheel] == DEVICE.motor.torque_limit
     declared = ET.fromstring(text).findall("ros2_control/joint")
-    own = ["ocs_left", "ocs_right"] if "ros2_control" in form else []
-    assert [joint.get("name") for joint in declared] == own
+    joints = ["ocs_left", "ocs_right"] if "ros2_control" in form else []
+    assert [joint.get("name") for joint in declared] == joints
 
 
-def test_the_model_attached(third, tmp_path):
-    model = with_attachment(third, tmp_path)
-    check_total(total_by_mujoco(model, third), third, DEVICE)
-    check_wheels_in_mujoco(model, DEVICE, third.trunk)
+def test_the_model_attaches_to_any_robot(other_robot, tmp_path):
+    model = with_attachment(other_robot, tmp_path)
+    check_total(total_by_mujoco(model, other_robot), other_robot, DEVICE)
+    check_wheels_in_mujoco(model, DEVICE, other_robot.trunk)
     limit = DEVICE.motor.torque_limit
     for module in DEVICE.modules:
         actuator = model.actuator(f"ocs_{module.name}")
@@ -143,13 +143,13 @@ MJCF = """<mujoco><asset><model name="ocs" file="ocs.xml"/></asset><worldbody>
   </body></worldbody></mujoco>"""
 
 
-def carrier(trunk):
+def robot_with_trunk(trunk):
     return replace(robot_by_hand(2.5, (0.03, 0.05, 0.07)), trunk=trunk)
 
 
 @pytest.mark.parametrize("snippet", [snippet_urdf, snippet_xacro, snippet_mjcf, snippet_sdf])
-def test_any_name_of_a_trunk_leaves_well_formed_xml(tmp_path, snippet):
-    text, path = snippet(paper_device(), carrier('a&"<b>--c--')), tmp_path / "ocs"
+def test_any_name_of_the_trunk_gives_well_formed_xml(tmp_path, snippet):
+    text, path = snippet(paper_device(), robot_with_trunk('a&"<b>--c--')), tmp_path / "ocs"
     if snippet is snippet_mjcf:
         assert mujoco.MjModel.from_xml_string(text).nu == 2
     elif snippet is snippet_sdf:
@@ -160,7 +160,7 @@ def test_any_name_of_a_trunk_leaves_well_formed_xml(tmp_path, snippet):
 
 
 def test_keyframes_of_an_attaching_robot_are_as_the_snippet_says(tmp_path):
-    (tmp_path / "ocs.xml").write_text(snippet_mjcf(paper_device(), carrier("trunk")))
+    (tmp_path / "ocs.xml").write_text(snippet_mjcf(paper_device(), robot_with_trunk("trunk")))
     values = "0 0 1 1 0 0 0 0.5 0 0 0.7"
     text = MJCF.replace(
         "</worldbody>",
@@ -171,8 +171,8 @@ def test_keyframes_of_an_attaching_robot_are_as_the_snippet_says(tmp_path):
     model = mujoco.MjModel.from_xml_path(str(tmp_path / "robot.xml"))
     data = mujoco.MjData(model)
     mujoco.mj_resetDataKeyframe(model, data, 0)
-    asked = {"hip": 0.5, "ocs_left": 0.0, "ocs_right": 0.0, "last": 0.7}
-    assert {name: float(data.joint(name).qpos[0]) for name in asked} == asked
+    expected = {"hip": 0.5, "ocs_left": 0.0, "ocs_right": 0.0, "last": 0.7}
+    assert {name: float(data.joint(name).qpos[0]) for name in expected} == expected
 
 
 HUMAN = next(ROBOTS.rglob("human.urdf"))
@@ -182,25 +182,25 @@ HUMAN = next(ROBOTS.rglob("human.urdf"))
 def test_wheels_of_a_robot_with_y_up_stand_in_its_base_frame(tmp_path, form):
     robot, device = robot_at(HUMAN), paper_device()
     link, place = robot.mount.link, robot.mount.placement
-    turned = [
-        replace(each, axis=place.rotation @ each.axis, position=place.point(each.position))
-        for each in device.modules
+    modules = [
+        replace(module, axis=place.rotation @ module.axis, position=place.point(module.position))
+        for module in device.modules
     ]
-    seen = replace(device, modules=tuple(turned))
+    rotated = replace(device, modules=tuple(modules))
     if form == "mjcf":
-        check_wheels_in_mujoco(mujoco_model(robot, device, tmp_path), seen, link)
+        check_wheels_in_mujoco(mujoco_model(robot, device, tmp_path), rotated, link)
         return
     for name, text in snippets(device, robot).items():
         (tmp_path / name).write_text(text)
     text = robot_urdf(robot, device).decode() if form == "urdf" else FORMS[form](robot, tmp_path)
-    check_wheels_in_pinocchio(pinocchio_model(text), seen, link)
+    check_wheels_in_pinocchio(pinocchio_model(text), rotated, link)
 
 
 @given(st.text("-a b", max_size=12))
 def test_any_text_may_stand_in_a_comment(text):
-    whole = minidom.parseString(f"<x><!--{in_comment(text)}--></x>")
-    found = whole.documentElement.firstChild.data if in_comment(text) else ""
-    assert found.replace(" ", "").rstrip("-") == text.replace(" ", "").rstrip("-")
+    document = minidom.parseString(f"<x><!--{in_comment(text)}--></x>")
+    comment = document.documentElement.firstChild.data if in_comment(text) else ""
+    assert comment.replace(" ", "").rstrip("-") == text.replace(" ", "").rstrip("-")
 
 
 CALL = f'<xacro:ocs parent="{TRUNK}" prefix="front_" ros2_control="true" hardware_plugin="a/B"/>'
@@ -216,8 +216,8 @@ def check_system(system, device, prefix, plugin):
     names = [f"{prefix}ocs_{module.name}" for module in device.modules]
     assert [joint.get("name") for joint in system.iter("joint")] == names
     for joint in system.iter("joint"):
-        assert [each.get("name") for each in joint.iter("command_interface")] == ["effort"]
-        states = [each.get("name") for each in joint.iter("state_interface")]
+        assert [command.get("name") for command in joint.iter("command_interface")] == ["effort"]
+        states = [state.get("name") for state in joint.iter("state_interface")]
         assert states == ["position", "velocity", "effort"]
 
 
@@ -228,7 +228,7 @@ def bounds(system):
     ]
 
 
-def test_the_macro_declares_both_motors_when_asked(tmp_path):
+def test_the_macro_declares_both_motors_on_request(tmp_path):
     device = driven_device()
     (tmp_path / "ocs.urdf.xacro").write_text(snippet_xacro(device, TrunkOnly()))
     text = expand_macro(tmp_path, CALL)
@@ -239,7 +239,7 @@ def test_the_macro_declares_both_motors_when_asked(tmp_path):
 
 
 @pytest.mark.parametrize("drive", [motor(754.0, torque_limit=0.7), geared(3.0), motor()])
-def test_the_command_is_bounded_by_the_motor_where_that_has_a_limit(drive):
+def test_the_command_is_bounded_by_the_torque_limit(drive):
     device = driven_device(drive=drive)
     (system,) = systems(snippet_ros2_control(device))
     check_system(system, device, "", MOCK_PLUGIN)

@@ -1,4 +1,4 @@
-"""Folders and files appear whole or not at all, whenever a run is killed or interrupted."""
+"""Folders and files appear completely or not at all when a run is killed or interrupted."""
 
 import errno
 import re
@@ -36,7 +36,7 @@ REPLACE = """
         with folder.staged_folder(Path("out"), force=True) as staging:
             for name in ("cad", "design.json"):
                 (staging / name).write_text("new")
-    if "aside" in sys.argv:
+    if "no exchange" in sys.argv:
         folder.exchange = lambda one, other: False
     for line in sys.stdin:
         if not (child := os.fork()):
@@ -44,8 +44,8 @@ REPLACE = """
             os._exit(0)
         print(os.waitpid(child, 0)[1], flush=True)
 """
-"""For each number n that it reads a process replaces a folder, and ends by force at the n-th thing
-that it asks of the system; 0 is printed of the one that comes to the end.
+"""For each number n that it reads, a process replaces a folder and is killed at its n-th system
+call; it prints the status of each, which is 0 for one that completes.
 """
 
 
@@ -62,9 +62,9 @@ def texts(folder):
 OLD, NEW = ({"cad": text, DESIGN_FILE: text} for text in ("old", "new"))
 
 
-def killed_at_each(folder, *how):
-    """What stands there after a kill at each moment, and after clearing up."""
-    command = [sys.executable, "-c", textwrap.dedent(REPLACE), *how]
+def killed_at_each_call(folder, *arguments):
+    """The folder after a kill at each system call, then after clearing up, and all names."""
+    command = [sys.executable, "-c", textwrap.dedent(REPLACE), *arguments]
     pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True}
     with subprocess.Popen(command, cwd=folder, **pipes) as process:
         for moment in range(1, 100):
@@ -85,19 +85,20 @@ WHOLE = ["out", "out/cad", f"out/{DESIGN_FILE}"]
 
 
 @pytest.mark.parametrize(
-    ("how", "moments_without"), [((), 0), pytest.param(("aside",), 1, marks=pytest.mark.slow)]
+    ("arguments", "times_without"),
+    [((), 0), pytest.param(("no exchange",), 1, marks=pytest.mark.slow)],
 )
-def test_killed_at_any_moment_it_is_the_old_folder_or_the_new(tmp_path, how, moments_without):
-    """Where two folders cannot change places, the next run brings the old one back."""
-    found = list(killed_at_each(tmp_path, *how))
-    assert len(found) > 15
-    assert all(cleared in (OLD, NEW) and names == WHOLE for _, cleared, names in found)
-    assert (found[0][1], found[-1][1]) == (OLD, NEW)
-    assert sum(at_once is None for at_once, _, _ in found) == moments_without
+def test_a_kill_leaves_the_old_folder_or_the_new_one(tmp_path, arguments, times_without):
+    """Where two folders cannot be exchanged, the next run restores the old one."""
+    outcomes = list(killed_at_each_call(tmp_path, *arguments))
+    assert len(outcomes) > 15
+    assert all(cleared in (OLD, NEW) and names == WHOLE for _, cleared, names in outcomes)
+    assert (outcomes[0][1], outcomes[-1][1]) == (OLD, NEW)
+    assert sum(at_once is None for at_once, _, _ in outcomes) == times_without
 
 
 class InterruptedAt:
-    """Raises an interrupt before the n-th instruction of the code that makes folders whole."""
+    """Raises an interrupt before the n-th instruction of `export.folder`."""
 
     FILES = (folders.__file__,)
 
@@ -116,7 +117,7 @@ class InterruptedAt:
 
 
 def replaced(target, trace):
-    """Whether all of it was done before the interrupt."""
+    """Whether the folder was replaced before the interrupt."""
     before = sys.gettrace()
     try:
         sys.settrace(trace)
@@ -130,9 +131,9 @@ def replaced(target, trace):
     return True
 
 
-@pytest.fixture(params=[False, True], ids=["exchanged", "put aside"])
+@pytest.fixture(params=[False, True], ids=["exchanged", "moved aside"])
 def either_way(request, monkeypatch):
-    """Two folders change places, or the system does not know how and the old one is put aside."""
+    """The folders are exchanged, or the old one is moved aside where the system cannot do that."""
     if request.param:
         monkeypatch.setattr(folders, "exchange", lambda one, other: False)
 
@@ -141,11 +142,11 @@ def either_way(request, monkeypatch):
 @pytest.mark.parametrize(
     "either_way",
     [False, pytest.param(True, marks=pytest.mark.slow)],
-    ids=["exchanged", "put aside"],
+    ids=["exchanged", "moved aside"],
     indirect=True,
 )
 @pytest.mark.usefixtures("either_way")
-def test_interrupted_at_any_instruction_it_is_the_old_folder_or_the_new(tmp_path):
+def test_an_interrupt_leaves_the_old_folder_or_the_new_one(tmp_path):
     target, moment, done = tmp_path / "out", 0, False
     make_output(target)
     while not done:
@@ -159,7 +160,7 @@ def test_interrupted_at_any_instruction_it_is_the_old_folder_or_the_new(tmp_path
     assert moment > 500
 
 
-def test_what_another_run_is_writing_stays(tmp_path):
+def test_the_unfinished_folder_of_another_run_stays(tmp_path):
     target = tmp_path / "out"
     with staged_folder(target, force=False) as folder:
         (folder / DESIGN_FILE).write_text("new")
@@ -168,7 +169,7 @@ def test_what_another_run_is_writing_stays(tmp_path):
 
 
 @pytest.mark.usefixtures("either_way")
-def test_of_two_runs_with_force_the_last_one_stays(tmp_path):
+def test_the_last_of_two_runs_with_force_wins(tmp_path):
     target = tmp_path / "out"
     make_output(target)
     with staged_folder(target, force=True) as slow:
@@ -180,7 +181,7 @@ def test_of_two_runs_with_force_the_last_one_stays(tmp_path):
     assert all_paths_in(tmp_path) == ["out", f"out/{DESIGN_FILE}"]
 
 
-def test_of_two_runs_without_force_the_first_one_stays(tmp_path):
+def test_the_first_of_two_runs_without_force_wins(tmp_path):
     target = tmp_path / "out"
     with (
         pytest.raises(OutputError, match="exists already"),
@@ -202,22 +203,22 @@ def test_hidden_folders_of_others_stay(tmp_path):
     assert all_paths_in(tmp_path) == sorted(names)
 
 
-@pytest.mark.parametrize("there", [False, True], ids=["new", "with force"])
+@pytest.mark.parametrize("exists", [False, True], ids=["new", "with force"])
 @pytest.mark.parametrize(
     "error", [RuntimeError(), OSError(errno.ENOSPC, "No space left on device", "flywheel.stl")]
 )
-def test_a_block_that_fails_leaves_all_as_it_was_and_a_full_disk_has_a_cure(tmp_path, there, error):
+def test_a_failure_leaves_everything_as_it_was_and_a_full_disk_has_a_hint(tmp_path, exists, error):
     target = tmp_path / "out"
-    if there:
+    if exists:
         make_output(target)
     with (
         pytest.raises((RuntimeError, OutputError)) as caught,
-        staged_folder(target, force=there) as folder,
+        staged_folder(target, force=exists) as folder,
     ):
         (folder / DESIGN_FILE).write_text("half")
         raise error
-    assert all_paths_in(tmp_path) == (WHOLE if there else [])
-    assert not there or texts(target) == OLD
+    assert all_paths_in(tmp_path) == (WHOLE if exists else [])
+    assert not exists or texts(target) == OLD
     if isinstance(caught.value, OutputError):
         assert "No space left" in caught.value.message
         assert "free some space" in caught.value.hint
@@ -236,7 +237,7 @@ def test_an_existing_folder_is_kept_without_force(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("name", "why"),
+    ("name", "message"),
     [
         ("photographs", r"has no design\.json"),
         ("file", "not a folder"),
@@ -244,19 +245,19 @@ def test_an_existing_folder_is_kept_without_force(tmp_path):
         ("nowhere/robot-ocs", r"nowhere: no such folder"),
     ],
 )
-def test_force_never_replaces_what_is_no_output(tmp_path, name, why):
+def test_force_replaces_nothing_but_an_output(tmp_path, name, message):
     make_output(tmp_path / "real")
     (tmp_path / "photographs").mkdir()
     (tmp_path / "photographs" / "one.png").write_text("precious")
     (tmp_path / "file").write_text("a file")
     (tmp_path / "link").symlink_to(tmp_path / "real")
     before = all_paths_in(tmp_path)
-    with pytest.raises(OutputError, match=why):
+    with pytest.raises(OutputError, match=message):
         check_target(tmp_path / name, force=True)
     assert all_paths_in(tmp_path) == before
 
 
-def test_a_file_is_written_whole_and_replaced_with_force_alone(tmp_path):
+def test_a_file_is_written_completely_and_replaced_only_with_force(tmp_path):
     file = tmp_path / "a.toml"
     write_whole(file, "ä\n", force=False)
     assert file.read_bytes() == "ä\n".encode()
@@ -272,10 +273,10 @@ def test_a_file_is_written_whole_and_replaced_with_force_alone(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("place", "why"),
+    ("place", "message"),
     [(".", "is not a file"), ("none/a.toml", "no such folder"), (300 * "a", "too long.*shorter")],
 )
-def test_where_no_file_can_be_is_told(tmp_path, place, why):
+def test_an_impossible_path_of_a_file_is_refused(tmp_path, place, message):
     with pytest.raises(OutputError) as refused:
         write_whole(tmp_path / place, "new", force=place == ".")
-    assert re.search(why, f"{refused.value.message} {refused.value.hint}")
+    assert re.search(message, f"{refused.value.message} {refused.value.hint}")

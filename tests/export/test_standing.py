@@ -1,4 +1,4 @@
-"""Housing, foot and motor in every robot file, read again by MuJoCo, Pinocchio and trimesh."""
+"""Housing, foot and motor in every robot file, read back by MuJoCo, Pinocchio and trimesh."""
 
 from dataclasses import replace
 from xml.etree import ElementTree as ET
@@ -41,7 +41,7 @@ def robot():
 
 @pytest.fixture(scope="module")
 def folder(robot, tmp_path_factory):
-    """All files of the robot with the device, and nothing else."""
+    """A folder with all files of the robot with its device."""
     folder = tmp_path_factory.mktemp("robot")
     model = robot_model(robot, DEVICE)
     export_robot_mjcf(model, folder / "robot.xml")
@@ -53,27 +53,27 @@ def folder(robot, tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def clouds(folder):
-    """Corners of each visual in the base frame [m], as MuJoCo has them, by side and what it is."""
+    """Vertices of each visual in the base frame [m] by MuJoCo, by side and name of the part."""
     model = mujoco.MjModel.from_xml_path(str(folder / "robot.xml"))
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)
-    base, found = data.site("ocs_imu"), {}
+    base, vertices = data.site("ocs_imu"), {}
     for side in ("left", "right"):
         body = model.body(f"ocs_{side}_motor")
         for geom in range(int(body.geomadr[0]), int(body.geomadr[0] + body.geomnum[0])):
             assert (model.geom_contype[geom], model.geom_conaffinity[geom]) == (0, 0)
-            corners = corners_of(model, geom) @ data.geom_xmat[geom].reshape(3, 3).T
+            corners = vertices_of(model, geom) @ data.geom_xmat[geom].reshape(3, 3).T
             placed = corners + data.geom_xpos[geom] - base.xpos
-            found[side, name_of(model, geom)] = placed @ base.xmat.reshape(3, 3)
-    return found
+            vertices[side, part_name(model, geom)] = placed @ base.xmat.reshape(3, 3)
+    return vertices
 
 
-def name_of(model, geom):
+def part_name(model, geom):
     mesh = model.geom_dataid[geom]
     return model.mesh(mesh).name if mesh >= 0 else "motor"
 
 
-def corners_of(model, geom):
+def vertices_of(model, geom):
     mesh = model.geom_dataid[geom]
     if mesh < 0:
         radius, half, _ = model.geom_size[geom]
@@ -84,8 +84,8 @@ def corners_of(model, geom):
     return model.mesh_vert[first : first + model.mesh_vertnum[mesh]].astype(float)
 
 
-def test_the_parts_stand_around_the_left_wheel_as_their_own_frames_say(clouds):
-    """Drum and lid in the wheel's frame, z along its axis and y down; the foot's z is up."""
+def test_parts_of_the_left_module_stand_as_their_frames_say(clouds):
+    """Drum and lid stand in the wheel's frame, z along its axis and y down; the foot's z is up."""
     level = np.cross(LEFT.axis, [0.0, 0.0, 1.0])
     forward = level if level[0] > 0.0 else -level
     wheel = np.column_stack([forward, np.cross(LEFT.axis, forward), LEFT.axis])
@@ -99,18 +99,18 @@ def test_the_parts_stand_around_the_left_wheel_as_their_own_frames_say(clouds):
 
 
 def check_same_points(ours, theirs):
-    """Each of ours is one of theirs within what single precision keeps."""
+    """Each of our points is one of theirs within single precision."""
     distance, _ = cKDTree(theirs).query(ours)
     assert distance.max() < 1e-8
     np.testing.assert_allclose(np.ptp(ours, axis=0), np.ptp(theirs, axis=0), atol=1e-8)
 
 
-def test_right_is_the_mirror_image_of_left(folder):
-    """By volume, centre and inertia in the base frame: triangles are not the mirrored ones."""
+def test_the_right_housing_is_the_mirror_image_of_the_left(folder):
+    """Compared by centre and inertia in the base frame: the triangles are others."""
     solids = {}
     for module in DEVICE.modules:
         mesh = trimesh.load_mesh(folder / "meshes" / "ocs_housing.stl")
-        places = {each.name: each.place for each in still_visuals(DEVICE, module)}
+        places = {visual.name: visual.place for visual in still_visuals(DEVICE, module)}
         mesh.apply_transform(wheel_of(module) @ homogeneous(places["housing"]))
         solids[module.name] = mesh
     left, right = solids["left"], solids["right"]
@@ -132,28 +132,28 @@ def test_both_motors_stand_on_the_plates_towards_each_other(clouds):
         np.testing.assert_allclose([along.min(), along.max()], [FOOT.back, FOOT.back + LENGTH])
 
 
-def test_pinocchio_sees_the_same_places(folder):
+def test_pinocchio_has_the_same_places(folder):
     model = pin.buildModelFromUrdf(str(folder / "robot.urdf"), pin.JointModelFreeFlyer())
-    seen = pin.buildGeomFromUrdf(
+    geometry = pin.buildGeomFromUrdf(
         model,
         str(folder / "robot.urdf"),
         pin.GeometryType.VISUAL,
         package_dirs=[str(folder), str(ROBOTS.parents[1])],
     )
-    data, frames = model.createData(), seen.createData()
-    pin.updateGeometryPlacements(model, data, seen, frames, pin.neutral(model))
+    data, frames = model.createData(), geometry.createData()
+    pin.updateGeometryPlacements(model, data, geometry, frames, pin.neutral(model))
     pin.updateFramePlacements(model, data)
     trunk = data.oMf[model.getFrameId(TRUNK, pin.FrameType.BODY)]
     for module in DEVICE.modules:
         visuals = still_visuals(DEVICE, module)
         for index, visual in enumerate(visuals):
-            which = seen.getGeometryId(f"ocs_{module.name}_motor_{index}")
-            place = trunk.actInv(frames.oMg[which])
+            index_in_geometry = geometry.getGeometryId(f"ocs_{module.name}_motor_{index}")
+            place = trunk.actInv(frames.oMg[index_in_geometry])
             expected = wheel_of(module) @ homogeneous(visual.place)
             np.testing.assert_allclose(place.homogeneous, expected, rtol=0.0, atol=1e-12)
-            color = seen.geometryObjects[which].meshColor
+            color = geometry.geometryObjects[index_in_geometry].meshColor
             np.testing.assert_allclose(color, visual.color)
-        names = [object_.name for object_ in seen.geometryObjects]
+        names = [object_.name for object_ in geometry.geometryObjects]
         assert sum(name.startswith(f"ocs_{module.name}_motor_") for name in names) == len(visuals)
 
 
@@ -166,7 +166,7 @@ def wheel_of(module):
     return place
 
 
-def test_the_glb_has_them_under_the_motors_links(folder):
+def test_the_glb_has_the_parts_below_the_motor_links(folder):
     scene = trimesh.load_scene(folder / "robot.glb")
     children = scene.graph.transforms.children
     for side in ("left", "right"):
@@ -174,7 +174,7 @@ def test_the_glb_has_them_under_the_motors_links(folder):
 
 
 def placed_by_urdf(text, side):
-    """Geometry and place of each visual of a side's motor."""
+    """Shape, sizes, rotation and position of each visual of a motor link."""
     link = ET.fromstring(text).find(f"link[@name='ocs_{side}_motor']")
     for visual in link.findall("visual"):
         origin, shape = visual.find("origin"), visual.find("geometry")[0]
@@ -197,7 +197,7 @@ def placed_by_sdf(text, side):
 
 def placed_as_designed(module):
     for visual in plain_visuals(DEVICE, module):
-        size = [2.0 * each for each in visual.size]
+        size = [2.0 * half for half in visual.size]
         if visual.kind == "cylinder":
             size = [visual.size[0], 2.0 * visual.size[1]]
         yield visual.kind.value, sorted(size), visual.place.rotation, visual.place.position
@@ -208,8 +208,8 @@ def check_equal(ours, theirs):
     assert len(ours) == 5
     for (kind, *numbers), (other, *others) in zip(ours, theirs, strict=True):
         assert kind == other
-        for one, two in zip(numbers, others, strict=True):
-            np.testing.assert_allclose(one, two, rtol=0.0, atol=1e-14)
+        for our, their in zip(numbers, others, strict=True):
+            np.testing.assert_allclose(our, their, rtol=0.0, atol=1e-14)
 
 
 @pytest.mark.parametrize("module", DEVICE.modules, ids=("left", "right"))
@@ -241,8 +241,8 @@ def test_boxes_and_cylinders_are_as_large_as_the_meshes():
             half = visual.size
             if visual.kind == "cylinder":
                 half = (visual.size[0], visual.size[0], visual.size[1])
-            reach = np.abs(place.rotation) @ half
-            boxes += [place.position - reach, place.position + reach]
+            extent = np.abs(place.rotation) @ half
+            boxes += [place.position - extent, place.position + extent]
     np.testing.assert_allclose(np.min(boxes, axis=0), mesh.min(axis=0), atol=2e-5)
     np.testing.assert_allclose(np.max(boxes, axis=0), mesh.max(axis=0), atol=2e-5)
 
@@ -255,7 +255,7 @@ def test_a_motor_of_unknown_size_or_place_is_left_out(drive):
     assert names == ["housing", "foot"]
 
 
-def test_what_weighs_nothing_is_not_shown(robot, tmp_path):
+def test_massless_carriers_are_not_shown(robot, tmp_path):
     assert still_visuals(paper_device(), LEFT) == ()
     text = robot_urdf(robot, paper_device()).decode()
     write_meshes(paper_device(), tmp_path)

@@ -1,4 +1,4 @@
-"""STEP files, read again by Open CASCADE, against the closed form."""
+"""STEP files, read back by Open CASCADE, against the closed form."""
 
 from dataclasses import dataclass, replace
 
@@ -40,8 +40,8 @@ TOLERANCE = 1e-9
 
 
 @dataclass(frozen=True)
-class Volume:
-    """What Open CASCADE integrates over faces, in SI, of unit density about the centre of mass."""
+class VolumeIntegrals:
+    """Volume integrals over the faces by Open CASCADE, in SI, about the centre of mass."""
 
     volume: float
     com: FloatArray
@@ -55,13 +55,13 @@ def read(path) -> TopoDS_Shape:
     return reader.OneShape()
 
 
-def integrated(shape: TopoDS_Shape) -> Volume:
+def integrated(shape: TopoDS_Shape) -> VolumeIntegrals:
     properties = GProp_GProps()
     BRepGProp.VolumeProperties_s(shape, properties)
     com, matrix = properties.CentreOfMass(), properties.MatrixOfInertia()
     entries = [[matrix.Value(i, j) for j in (1, 2, 3)] for i in (1, 2, 3)]
     centre = np.array([com.X(), com.Y(), com.Z()])
-    return Volume(properties.Mass() * 1e-9, centre * 1e-3, np.array(entries) * 1e-15)
+    return VolumeIntegrals(properties.Mass() * 1e-9, centre * 1e-3, np.array(entries) * 1e-15)
 
 
 SMALL = "wheel", "foot", "slotted", "tube"
@@ -74,20 +74,22 @@ SMALL = "wheel", "foot", "slotted", "tube"
         for name, part in PARTS.items()
     ],
 )
-def test_solid_weighs_what_the_closed_form_says(part, tmp_path, record_property):
+def test_solid_has_the_mass_and_inertia_of_the_closed_form(part, tmp_path, record_property):
     (tmp_path / "part.step").write_bytes(step_bytes(part))
     shape = read(tmp_path / "part.step")
     assert shape.ShapeType() == TopAbs_ShapeEnum.TopAbs_SOLID
     assert BRepCheck_Analyzer(shape).IsValid()
-    found, exact = integrated(shape), part.mass_properties()
-    inertia = np.abs(found.second * part.density - exact.inertia).max() / exact.inertia.max()
-    record_property("inertia_error", float(inertia))
-    assert found.volume * part.density == pytest.approx(exact.mass, rel=TOLERANCE)
-    assert inertia < TOLERANCE
-    np.testing.assert_allclose(found.com, exact.com, atol=1e-12)
+    integrals, exact = integrated(shape), part.mass_properties()
+    inertia_error = (
+        np.abs(integrals.second * part.density - exact.inertia).max() / exact.inertia.max()
+    )
+    record_property("inertia_error", float(inertia_error))
+    assert integrals.volume * part.density == pytest.approx(exact.mass, rel=TOLERANCE)
+    assert inertia_error < TOLERANCE
+    np.testing.assert_allclose(integrals.com, exact.com, atol=1e-12)
 
 
-def test_file_bears_the_name_and_no_clock():
+def test_file_has_the_name_and_no_timestamp():
     content = step_bytes(TUBE)
     assert b"PRODUCT('tube','tube'" in content
     assert b"AUTOMOTIVE_DESIGN { 1 0 10303 214" in content
@@ -101,16 +103,16 @@ def test_nothing_is_printed(capfd):
 
 
 @dataclass(frozen=True)
-class Shown:
-    """A solid in the tree of a file, with all names from the root to it."""
+class ShownSolid:
+    """A solid in the tree of a file, with the names from the root to it."""
 
     path: tuple[str, ...]
     color: tuple[float, ...]
-    solid: Volume
+    solid: VolumeIntegrals
 
 
-def tree(path) -> list[Shown]:
-    """What a CAD program shows of an assembly, by XCAF."""
+def tree(path) -> list[ShownSolid]:
+    """The solids that a CAD program shows of an assembly, by XCAF."""
     document = TDocStd_Document(TCollection_ExtendedString("BinXCAF"))
     XCAFApp_Application.GetApplication_s().InitDocument(document)
     reader = STEPCAFControl_Reader()
@@ -139,7 +141,7 @@ def tree(path) -> list[Shown]:
             shape, shade = XCAFDoc_ShapeTool.GetShape_s(label), Quantity_Color()
             assert colors.GetColor(shape, XCAFDoc_ColorType.XCAFDoc_ColorSurf, shade)
             rgb = shade.Values(Quantity_TypeOfColor.Quantity_TOC_sRGB)
-            yield Shown(names, rgb, integrated(shape.Moved(place)))
+            yield ShownSolid(names, rgb, integrated(shape.Moved(place)))
 
     free = Sequence_TDF_Label()
     shapes.GetFreeShapes(free)
@@ -157,25 +159,25 @@ COLORS = {
 }
 
 
-def check_solid(found, part, place, color):
-    own = part.mass_properties()
-    assert found.solid.volume == pytest.approx(own.mass / part.density, rel=TOLERANCE)
+def check_solid(shown, part, place, color):
+    expected = part.mass_properties()
+    assert shown.solid.volume == pytest.approx(expected.mass / part.density, rel=TOLERANCE)
     np.testing.assert_allclose(
-        found.solid.com, place.rotation @ own.com + place.position, atol=1e-9
+        shown.solid.com, place.rotation @ expected.com + place.position, atol=1e-9
     )
-    assert found.color == pytest.approx(color[:3], abs=1e-3)
+    assert shown.color == pytest.approx(color[:3], abs=1e-3)
 
 
 @pytest.mark.slow
 def test_a_module_has_all_its_pieces_in_their_places(tmp_path):
-    """Motor and cage among them: each by its name and colour, of its volume, at its place."""
+    """Each part, motor and cage included, has its name, colour, volume and place."""
     (tmp_path / "module.step").write_bytes(module_bytes(CAGED_DEVICE))
     assert module_bytes(CAGED_DEVICE) == (tmp_path / "module.step").read_bytes()
-    found, placed = tree(tmp_path / "module.step"), placed_parts(CAGED_DEVICE)
-    assert [each.path for each in found] == [("module", name) for name in placed]
-    assert {"flywheel", "motor", "cage", "drum", "lid", "foot"} == set(placed)
-    for each, (part, place) in zip(found, placed.values(), strict=True):
-        check_solid(each, part, place, COLORS[each.path[-1]])
+    solids, parts = tree(tmp_path / "module.step"), placed_parts(CAGED_DEVICE)
+    assert [solid.path for solid in solids] == [("module", name) for name in parts]
+    assert {"flywheel", "motor", "cage", "drum", "lid", "foot"} == set(parts)
+    for solid, (part, place) in zip(solids, parts.values(), strict=True):
+        check_solid(solid, part, place, COLORS[solid.path[-1]])
     read(tmp_path / "module.step")
 
 
@@ -194,31 +196,34 @@ TWO_PLATES = replace(
 def test_the_device_has_every_module_in_its_place_and_its_plates(tmp_path, plate):
     device = replace(DEVICES["on a plate"], plate=plate)
     (tmp_path / "device.step").write_bytes(device_bytes(device))
-    found = tree(tmp_path / "device.step")
-    frames = [wheel_placement(each) @ carrier_placement(each) for each in device.modules]
+    solids = tree(tmp_path / "device.step")
+    frames = [wheel_placement(module) @ carrier_placement(module) for module in device.modules]
     expected = [
         (("device", module.name, name), part, frame @ place)
         for module, frame in zip(device.modules, frames, strict=True)
         for name, (part, place) in placed_parts(device).items()
     ]
     bodies = [
-        (plate_part(each), Placement(np.eye(3), np.array(each.position))) for each in plate.each
+        (plate_part(single), Placement(np.eye(3), np.array(single.position)))
+        for single in plate.each
     ]
     on_trunk = Placement(np.eye(3), np.array(plate.position))
-    bodies += [(part, on_trunk @ at) for part, at in list(plate_bodies(plate))[1:]]
+    bodies += [
+        (part, on_trunk @ place_on_trunk) for part, place_on_trunk in list(plate_bodies(plate))[1:]
+    ]
     expected += [(("device", part.name), part, place) for part, place in bodies]
-    assert [each.path for each in found] == [path for path, *_ in expected]
-    for each, (path, part, place) in zip(found, expected, strict=True):
-        check_solid(each, part, place, COLORS[path[-1]])
+    assert [solid.path for solid in solids] == [path for path, *_ in expected]
+    for solid, (path, part, place) in zip(solids, expected, strict=True):
+        check_solid(solid, part, place, COLORS[path[-1]])
     assert step_bytes(plate_part(plate)).count(b"MANIFOLD_SOLID_BREP(") == len(plate.each)
     billed = sum(row.quantity for row in bill_rows(device) if row.part.startswith("sleeve"))
-    assert sum(each.path[-1].startswith("sleeve") for each in found) == billed > 0
-    wheels = [each.solid.com for each in found if each.path[-1] == "flywheel"]
+    assert sum(solid.path[-1].startswith("sleeve") for solid in solids) == billed > 0
+    wheels = [solid.solid.com for solid in solids if solid.path[-1] == "flywheel"]
     np.testing.assert_allclose(wheels, [module.position for module in device.modules], atol=1e-9)
 
 
 def test_a_formed_face_is_one_smooth_surface(tmp_path):
-    """It goes through the corners of its cells; the closed form has flat triangles between them."""
+    """The surface passes through the nodes of the grid; the closed form has flat triangles."""
     x, y = np.linspace(-1.0, 1.0, 31)[:, None], np.linspace(-1.0, 1.0, 41)
     heights = 0.01 + 0.006 * (x**2 + 0.5 * y**2)
     place = Placement(FORWARDS, np.array([0.01, 0.02, 0.03]))
@@ -227,6 +232,6 @@ def test_a_formed_face_is_one_smooth_surface(tmp_path):
     (tmp_path / "block.step").write_bytes(step_bytes(block))
     shape = read(tmp_path / "block.step")
     assert BRepCheck_Analyzer(shape).IsValid()
-    found, own = integrated(shape), block.mass_properties()
-    assert found.volume * block.density == pytest.approx(own.mass, rel=2e-3)
-    assert found.com == pytest.approx(own.com, abs=1e-5)
+    integrals, expected = integrated(shape), block.mass_properties()
+    assert integrals.volume * block.density == pytest.approx(expected.mass, rel=2e-3)
+    assert integrals.com == pytest.approx(expected.com, abs=1e-5)

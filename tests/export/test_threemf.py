@@ -1,4 +1,4 @@
-"""3MF files, read again by the consortium's own library."""
+"""3MF files, read back by the consortium's own library."""
 
 import lib3mf
 import numpy as np
@@ -24,21 +24,21 @@ def read(content: bytes, path) -> lib3mf.Model:
 
 
 def objects(model: lib3mf.Model) -> list[lib3mf.MeshObject]:
-    found, iterator = [], model.GetMeshObjects()
+    meshes, iterator = [], model.GetMeshObjects()
     while iterator.MoveNext():
-        found.append(iterator.GetCurrentMeshObject())
-    return found
+        meshes.append(iterator.GetCurrentMeshObject())
+    return meshes
 
 
 def mesh_of(item: lib3mf.MeshObject) -> Mesh:
-    """In metres again."""
+    """The object's mesh in metres."""
     vertices = np.array([list(vertex.Coordinates) for vertex in item.GetVertices()])
     triangles = np.array([list(triangle.Indices) for triangle in item.GetTriangleIndices()])
     return Mesh(vertices * 1e-3, triangles.astype(np.int64))
 
 
 @pytest.mark.parametrize("part", PARTS.values(), ids=PARTS)
-def test_part_comes_back(part, tmp_path):
+def test_a_part_is_read_back_with_its_volume(part, tmp_path):
     model = read(threemf_bytes({part.name: part_mesh(part)}), tmp_path / "part.3mf")
     assert model.GetUnit() == lib3mf.ModelUnit.MilliMeter
     (item,) = objects(model)
@@ -46,8 +46,8 @@ def test_part_comes_back(part, tmp_path):
     assert item.IsManifoldAndOriented()
     volume = part.mass_properties().mass / part.density
     mesh = mesh_of(item)
-    found = trimesh.Trimesh(mesh.vertices, mesh.triangles, process=False).volume
-    assert found == pytest.approx(volume, rel=MICROMETRE_ON_BOX)
+    read_volume = trimesh.Trimesh(mesh.vertices, mesh.triangles, process=False).volume
+    assert read_volume == pytest.approx(volume, rel=MICROMETRE_ON_BOX)
 
 
 def test_parts_stand_side_by_side_on_the_bed(tmp_path):

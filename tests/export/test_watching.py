@@ -1,4 +1,4 @@
-"""MuJoCo's viewer on a screen, where there is one, and what is said where there is none."""
+"""MuJoCo's viewer on a display, and the error where there is none."""
 
 import os
 import shutil
@@ -32,7 +32,7 @@ def no_display(monkeypatch):
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="other systems always have a display")
-def test_without_a_display_it_is_said_before_anything_is_flown(no_display):
+def test_without_a_display_the_command_stops_before_any_flight(no_display):
     result = run("validate", "nowhere", "--view")
     assert result.code == 5
     assert "needs a display" in result.output
@@ -40,19 +40,19 @@ def test_without_a_display_it_is_said_before_anything_is_flown(no_display):
 
 
 @pytest.mark.slow
-def test_a_display_that_is_not_there_is_told(take, monkeypatch):
+def test_a_missing_display_is_an_error(take, monkeypatch):
     monkeypatch.setenv("DISPLAY", ":9999")
     monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
     with pytest.raises(MissingToolError, match="could not initialize GLFW"):
         watch_takes([take], 0.01)
 
 
-def test_every_take_is_handed_to_the_other_process(take, monkeypatch):
-    """A fake in its place, which reads what the viewer would."""
-    told: list[list[str]] = []
+def test_every_take_is_passed_to_the_viewer_process(take, monkeypatch):
+    """A fake process reads the files that the viewer would read."""
+    commands: list[list[str]] = []
 
     def fake(command, **options):
-        told.append(command)
+        commands.append(command)
         assert options["env"]["MUJOCO_GL"] == "glfw"
         for model, qpos in zip(command[4::2], command[5::2], strict=True):
             assert mujoco.MjModel.from_binary_path(model).nq == np.load(qpos).shape[1] == 7
@@ -61,8 +61,8 @@ def test_every_take_is_handed_to_the_other_process(take, monkeypatch):
     monkeypatch.setenv("DISPLAY", ":0")
     monkeypatch.setattr(watching.subprocess, "run", fake)
     watch_takes([take, take], 0.25)
-    assert told[0][2:4] == ["ocs_design.export.watching", "0.25"]
-    assert len(told[0]) == 8
+    assert commands[0][2:4] == ["ocs_design.export.watching", "0.25"]
+    assert len(commands[0]) == 8
 
 
 CLOSES = """
@@ -91,8 +91,8 @@ def test_a_window_opens_and_plays_until_it_is_closed(take, tmp_path):
     files = watching.written_take(take, tmp_path / "take")
     command = ["xvfb-run", "-a", sys.executable, "-c", CLOSES, "0.05", *map(str, files)]
     environment = {**os.environ, "MUJOCO_GL": "glfw"}
-    done = subprocess.run(
+    process = subprocess.run(
         command, env=environment, capture_output=True, text=True, timeout=60, check=False
     )
-    assert done.returncode == 0, done.stderr
-    assert "seen [1.0]" in done.stdout
+    assert process.returncode == 0, process.stderr
+    assert "seen [1.0]" in process.stdout

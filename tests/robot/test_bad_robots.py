@@ -1,4 +1,4 @@
-"""Every bad robot file: the right error, which names the place and the cure."""
+"""Each kind of bad robot file raises an error that names the place and the cure."""
 
 import gzip
 from pathlib import Path
@@ -21,7 +21,7 @@ BOMB = (
 
 
 def on_leg(*figures, **named) -> bytes:
-    """A trunk of these figures on one leg."""
+    """A trunk with this <inertial> on one leg."""
     return robot(link("trunk", inertial(*figures, **named)), LEG, HIP)
 
 
@@ -94,7 +94,7 @@ BAD = {
         b'<inertial mass="nan" pos="0 0 0" diaginertia="1 1 1"/></body></worldbody></mujoco>',
         "MuJoCo refuses",
     ),
-    "MJCF nested beyond measure": (
+    "MJCF nested too deeply": (
         b"<mujoco><worldbody>" + b"<body>" * 3000 + b"</body>" * 3000 + b"</worldbody></mujoco>",
         "nested",
     ),
@@ -104,13 +104,13 @@ BAD = {
 @pytest.mark.parametrize("case", BAD)
 def test_a_bad_file_is_refused_with_its_cure(case: str, tmp_path: Path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    content, named = BAD[case]
+    content, expected = BAD[case]
     path = tmp_path / "robot.urdf"
     path.write_bytes(content)
     with pytest.raises(RobotError) as caught:
         load(path)
     assert caught.value.exit_code == 3
-    assert named in caught.value.message
+    assert expected in caught.value.message
     assert caught.value.hint
     assert "\n" not in caught.value.message
     assert list(tmp_path.iterdir()) == [path], "MuJoCo's log file"
@@ -141,13 +141,13 @@ ENTITIES = (
     [b"<robot>" + b"<x/>" * 1001 + b"</robot>", ENTITIES.encode(), ENTITIES.encode("utf-16")],
     ids=["in the file", "of entities", "of entities in UTF-16"],
 )
-def test_more_elements_than_any_robot_has_are_refused(content, monkeypatch):
+def test_too_many_xml_elements_are_refused(content, monkeypatch):
     monkeypatch.setattr("ocs_design.robot.xml.MOST_ELEMENTS", 500)
     with pytest.raises(RobotError, match="more than 500 elements"):
         parse_xml(content, Warnings())
 
 
-def test_more_links_than_any_robot_has_are_refused(tmp_path):
+def test_too_many_links_are_refused(tmp_path):
     (tmp_path / "robot.urdf").write_bytes(robot(*(link(f"l{i}") for i in range(2001))))
     with pytest.raises(RobotError, match="2001 links, more than 2000"):
         load(tmp_path / "robot.urdf")

@@ -15,36 +15,36 @@ from ocs_design.robot.leg_geometry import BASE_FRAME, named_front
 from ocs_design.robot.reader import read_robot
 
 RIGHT = np.pi / 2.0
-TURNS = {
+ROTATIONS = {
     "y up": f"{-RIGHT} 0 0",
     "x sideways": f"0 0 {-RIGHT}",
     "x up": f"0 {RIGHT} 0",
 }
-"""Roll, pitch and yaw of a robot's root in one whose axes lie otherwise."""
+"""Roll, pitch and yaw of the original root link in a root link with other axes."""
 
 
-def turned(folder, path, first, rpy):
-    """The robot of a file, whose root `first` hangs on another one that is turned against it."""
+def rotated(folder, path, first, rpy):
+    """The robot of a file below a new root link, in which its root `first` is rotated by `rpy`."""
     root = (
-        f'<link name="turned_root"/><joint name="turned" type="fixed"><parent link="turned_root"/>'
+        f'<link name="new_root"/><joint name="rotated" type="fixed"><parent link="new_root"/>'
         f'<child link="{first}"/><origin rpy="{rpy}"/></joint></robot>'
     )
-    file = folder / "turned.urdf"
+    file = folder / "rotated.urdf"
     file.write_text(path.read_text().replace("</robot>", root))
     return read_robot(file, package_paths={"example-robot-data": ROBOTS.parent})
 
 
-@pytest.mark.parametrize("rpy", TURNS.values(), ids=TURNS)
+@pytest.mark.parametrize("rpy", ROTATIONS.values(), ids=ROTATIONS)
 def test_inertia_does_not_depend_on_the_trunks_frame(rpy, tmp_path):
-    robot, found = read_robot(SOLO12), turned(tmp_path, SOLO12, "base_link", rpy)
-    assert found.trunk == BASE_FRAME
-    assert found.mount.link == "turned_root"
-    assert sum(BASE_FRAME in text for text in found.warnings) == 1
-    assert found.standing_height == pytest.approx(robot.standing_height, abs=1e-6)
-    # Front and back look alike, and are told by the legs' names.
-    np.testing.assert_allclose(found.inertia, robot.inertia, atol=1e-8)
-    placements = found.tree.placements_from(BASE_FRAME, found.posture)
-    ahead = {leg.name: placements[leg.body].position[0] > 0.0 for leg in found.legs}
+    robot, rotated_robot = read_robot(SOLO12), rotated(tmp_path, SOLO12, "base_link", rpy)
+    assert rotated_robot.trunk == BASE_FRAME
+    assert rotated_robot.mount.link == "new_root"
+    assert sum(BASE_FRAME in warning for warning in rotated_robot.warnings) == 1
+    assert rotated_robot.standing_height == pytest.approx(robot.standing_height, abs=1e-6)
+    # Front and back look alike; the names of the legs tell which is which.
+    np.testing.assert_allclose(rotated_robot.inertia, robot.inertia, atol=1e-8)
+    placements = rotated_robot.tree.placements_from(BASE_FRAME, rotated_robot.posture)
+    ahead = {leg.name: placements[leg.body].position[0] > 0.0 for leg in rotated_robot.legs}
     assert ahead == {"FL_FOOT": True, "FR_FOOT": True, "HL_FOOT": False, "HR_FOOT": False}
 
 
@@ -52,7 +52,7 @@ SOLE = '<origin xyz="0 0 -0.14"/>'
 
 
 def hexapod():
-    """Three legs on each side that reach out sideways; x is forward."""
+    """URDF of a hexapod: three legs on each side that reach out sideways; x is forward."""
 
     def hinge(name, parent, child, at, axis):
         limit = '<limit lower="-1.5" upper="1.5" effort="10" velocity="10"/>'
@@ -75,15 +75,15 @@ def hexapod():
 
 
 @pytest.mark.parametrize("options", [{}, {"trunk": "trunk"}])
-def test_legs_that_sprawl_bend_about_the_way_ahead(tmp_path, options):
+def test_sprawling_legs_leave_the_trunk_frame_as_it_is(tmp_path, options):
     path = tmp_path / "hexapod.urdf"
     path.write_bytes(hexapod())
-    found = read_robot(path, **options)
-    assert len(found.legs) == 6
-    assert found.mount is None
-    assert not any("frame" in text for text in found.warnings)
-    # The feet are farther apart across the way than along it.
-    assert found.inertia[0, 0] > 1.2 * found.inertia[1, 1]
+    robot = read_robot(path, **options)
+    assert len(robot.legs) == 6
+    assert robot.mount is None
+    assert not any("frame" in warning for warning in robot.warnings)
+    # The feet are farther apart sideways than lengthways.
+    assert robot.inertia[0, 0] > 1.2 * robot.inertia[1, 1]
 
 
 @pytest.mark.parametrize(
@@ -103,11 +103,11 @@ def test_names_tell_front_from_back(names, front):
     np.testing.assert_allclose(named_front(legs, hips), [0.4 * front, 0.0, 0.0], atol=1e-12)
 
 
-def test_an_x_that_points_backwards_is_told(tmp_path):
+def test_a_backward_x_axis_raises_a_warning(tmp_path):
     text = Path(SOLO12).read_text()
-    ends = {"FL_": "HL_", "FR_": "HR_", "HL_": "FL_", "HR_": "FR_"}
+    swapped = {"FL_": "HL_", "FR_": "HR_", "HL_": "FL_", "HR_": "FR_"}
     path = tmp_path / "backwards.urdf"
-    path.write_text(re.sub("|".join(ends), lambda match: ends[match[0]], text))
+    path.write_text(re.sub("|".join(swapped), lambda match: swapped[match[0]], text))
     assert any("point backwards" in warning for warning in read_robot(path).warnings)
     assert not any("point backwards" in warning for warning in read_robot(SOLO12).warnings)
 
@@ -142,15 +142,15 @@ QUADRUPEDS = (
 )
 
 
-@pytest.mark.parametrize("rpy", [TURNS["y up"], TURNS["x up"]], ids="yx")
+@pytest.mark.parametrize("rpy", [ROTATIONS["y up"], ROTATIONS["x up"]], ids="yx")
 @pytest.mark.parametrize("name", QUADRUPEDS, ids=lambda name: name.partition("_")[0])
 def test_all_legs_are_found_whichever_axis_is_up(name, rpy, tmp_path):
-    """With z for up two legs of these hang by chance, which are as long as the other two."""
+    """Were z taken as up, two of the legs would seem to hang, by chance as long as the others."""
     robot = read_robot(ROBOTS / name)
-    first = next(iter(robot.tree.bodies[0].links))
-    again = turned(tmp_path, ROBOTS / name, first, rpy)
-    assert [leg.name for leg in again.legs] == [leg.name for leg in robot.legs]
+    root = next(iter(robot.tree.bodies[0].links))
+    rotated_robot = rotated(tmp_path, ROBOTS / name, root, rpy)
+    assert [leg.name for leg in rotated_robot.legs] == [leg.name for leg in robot.legs]
     inertia = np.linalg.eigvalsh(robot.inertia)
-    np.testing.assert_allclose(np.linalg.eigvalsh(again.inertia), inertia, rtol=1e-6)
-    # Roll, pitch and yaw are what they were, forward or backward.
-    np.testing.assert_allclose(np.diag(again.inertia), np.diag(robot.inertia), rtol=1e-4)
+    np.testing.assert_allclose(np.linalg.eigvalsh(rotated_robot.inertia), inertia, rtol=1e-6)
+    # Roll, pitch and yaw axes are the same, with x forward or backward.
+    np.testing.assert_allclose(np.diag(rotated_robot.inertia), np.diag(robot.inertia), rtol=1e-4)

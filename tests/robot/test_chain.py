@@ -23,7 +23,7 @@ def first_leg(name):
     return tree, legs[0], chain_of(tree, legs[0].base, legs[0].body, placements)
 
 
-def some_values(chain, seed):
+def random_values(chain, seed):
     lower, upper = np.maximum(chain.lower, -2.0), np.minimum(chain.upper, 2.0)
     return np.random.default_rng(seed).uniform(lower, upper)
 
@@ -32,7 +32,7 @@ def some_values(chain, seed):
 @pytest.mark.parametrize("seed", range(3))
 def test_pose_is_that_of_the_tree(name, seed):
     tree, leg, chain = first_leg(name)
-    values = some_values(chain, seed)
+    values = random_values(chain, seed)
     pose = chain.pose(values)
     place = tree.placements(dict(zip(chain.names, values, strict=True)))[leg.body]
     assert pose.end.position == pytest.approx(place.position, abs=1e-14)
@@ -42,7 +42,7 @@ def test_pose_is_that_of_the_tree(name, seed):
 @pytest.mark.parametrize("seed", range(3))
 def test_jacobians_are_the_derivatives(seed):
     _, leg, chain = first_leg(TALOS)
-    values, step = some_values(chain, seed), 1e-6
+    values, step = random_values(chain, seed), 1e-6
     pose = chain.pose(values)
     direction = np.array([0.0, 0.6, 0.8])
     points = chain.point_jacobian(pose, pose.point(leg.foot))
@@ -53,34 +53,34 @@ def test_jacobians_are_the_derivatives(seed):
         )
         slope = (ahead.point(leg.foot) - behind.point(leg.foot)) / (2 * step)
         assert points[:, column] == pytest.approx(slope, abs=1e-8)
-        turn = (ahead.end.rotation - behind.end.rotation) @ direction / (2 * step)
-        assert directions[:, column] == pytest.approx(turn, abs=1e-8)
+        rotation_rate = (ahead.end.rotation - behind.end.rotation) @ direction / (2 * step)
+        assert directions[:, column] == pytest.approx(rotation_rate, abs=1e-8)
 
 
 @pytest.mark.parametrize("name", [SOLO12, A1])
 def test_stretched_reaches_as_deep_as_a_grid_over_all_joints(name):
     _, leg, chain = first_leg(name)
     down = np.array([0.0, 0.0, -1.0])
-    found = down @ chain.pose(chain.stretched(leg.foot, down)).point(leg.foot)
+    depth = down @ chain.pose(chain.stretched(leg.foot, down)).point(leg.foot)
     ranges = [
         np.linspace(max(low, -np.pi), min(high, np.pi), 25)
         for low, high in zip(chain.lower, chain.upper, strict=True)
     ]
     grid = np.stack(np.meshgrid(*ranges), axis=-1).reshape(-1, len(ranges))
     best = max(down @ chain.pose(values).point(leg.foot) for values in grid[::3])
-    assert found >= best
-    assert found == pytest.approx(best, abs=0.02)
+    assert depth >= best
+    assert depth == pytest.approx(best, abs=0.02)
 
 
 def test_a_mimic_moves_with_its_leader():
-    follow = '<mimic joint="a" multiplier="-2" offset="0.1"/>'
-    free = '<axis xyz="0 1 0"/><limit lower="-2" upper="2" effort="1" velocity="1"/>'
-    below = '<origin xyz="0 0 -0.3"/>'
+    mimic = '<mimic joint="a" multiplier="-2" offset="0.1"/>'
+    hinge = '<axis xyz="0 1 0"/><limit lower="-2" upper="2" effort="1" velocity="1"/>'
+    origin = '<origin xyz="0 0 -0.3"/>'
     tree = read_urdf(
         robot(
             *(link(name, inertial()) for name in ("trunk", "thigh", "shank")),
-            joint("a", "trunk", "thigh", free),
-            joint("b", "thigh", "shank", below, free, follow),
+            joint("a", "trunk", "thigh", hinge),
+            joint("b", "thigh", "shank", origin, hinge, mimic),
         ),
         find_mesh=lambda _: None,
     )
@@ -121,7 +121,7 @@ def test_missing_joints_stand_at_zero_and_unknown_ones_are_ignored():
 
 @given(angle=st.floats(-20.0, 20.0), middle=st.floats(-4.0, 4.0), half=st.floats(0.1, 3.0))
 def test_nearest_turn_is_the_best_cosine_within_the_limits(angle, middle, half):
-    found = nearest_turn(angle, middle - half, middle + half)
-    assert middle - half <= found <= middle + half
+    nearest = nearest_turn(angle, middle - half, middle + half)
+    assert middle - half <= nearest <= middle + half
     grid = np.linspace(middle - half, middle + half, 201)
-    assert np.cos(found - angle) >= np.cos(grid - angle).max() - 1e-9
+    assert np.cos(nearest - angle) >= np.cos(grid - angle).max() - 1e-9

@@ -1,4 +1,4 @@
-"""Faults planted one by one in a robot that has none; each must be told, with its link."""
+"""Faults planted one by one in a sound robot: each raises a warning that names the link."""
 
 import re
 import time
@@ -19,7 +19,7 @@ TRUNK, THIGH, SHANK = (0.4, 0.2, 0.1), (0.03, 0.04, 0.16), (0.02, 0.02, 0.16)
 
 
 def box(name, mass, sides, centre=(0.0, 0.0, 0.0), shape=""):
-    """A homogeneous box: I_x = m (b^2 + c^2) / 12."""
+    """A link with a homogeneous box: I_x = m (b^2 + c^2) / 12."""
     moments = [mass * (sum(s * s for s in sides) - sides[i] ** 2) / 12 for i in range(3)]
     at = f'<origin xyz="{words(centre)}" rpy="0 0 0"/>'
     filled = f'<collision>{at}<geometry><box size="{words(sides)}"/></geometry></collision>'
@@ -58,7 +58,7 @@ WHEEL = link(
 
 
 def quadruped():
-    """A robot that nothing is wrong with, as elements."""
+    """A robot without faults, as XML."""
     spin = hinge("spin", "trunk", "lidar", (0, 0, 0.08), (0, 0, 1), "")
     legs = [
         leg(f"{a}{b}", x, y)
@@ -69,7 +69,7 @@ def quadruped():
 
 
 def scaled(root, tag, factor, of=".*", attributes=None):
-    """Multiply all numbers of the elements `tag` inside of the links and joints named so."""
+    """Multiply the numbers of all elements `tag` in links and joints whose name matches `of`."""
     for part in root:
         for element in part.iter(tag) if re.fullmatch(of, part.get("name")) else ():
             for name in attributes or element.keys():
@@ -79,21 +79,22 @@ def scaled(root, tag, factor, of=".*", attributes=None):
 
 def set_in(root, part, tag, **attributes):
     """Set attributes of the first element `tag` of one link or joint."""
-    found = next(each for each in root if each.get("name") == part)
-    next(found.iter(tag)).attrib.update({name: str(value) for name, value in attributes.items()})
+    element = next(element for element in root if element.get("name") == part)
+    next(element.iter(tag)).attrib.update({name: str(value) for name, value in attributes.items()})
 
 
-def swap(root, of, one, other):
+def swap(root, link, one, other):
     """Write one moment of a link in place of another."""
-    inertia = next(each for each in root if each.get("name") == of).find("inertial/inertia")
-    set_in(root, of, "inertia", **{one: inertia.get(other), other: inertia.get(one)})
+    inertia = next(part for part in root if part.get("name") == link).find("inertial/inertia")
+    set_in(root, link, "inertia", **{one: inertia.get(other), other: inertia.get(one)})
 
 
-def about_origin(root, of):
-    """Inertia about the link's origin: Steiner's term of its centre added."""
-    link = next(each for each in root if each.get("name") == of)
-    x, y, z = map(float, link.find("inertial/origin").get("xyz").split())
-    mass, inertia = float(link.find("inertial/mass").get("value")), link.find("inertial/inertia")
+def about_origin(root, name):
+    """Move a link's inertia to the link's origin: add Steiner's term of its centre of mass."""
+    element = next(part for part in root if part.get("name") == name)
+    x, y, z = map(float, element.find("inertial/origin").get("xyz").split())
+    mass = float(element.find("inertial/mass").get("value"))
+    inertia = element.find("inertial/inertia")
     for axis, square in (("xx", y * y + z * z), ("yy", x * x + z * z), ("zz", x * x + y * y)):
         inertia.set(f"i{axis}", str(float(inertia.get(f"i{axis}")) + mass * square))
 
@@ -103,7 +104,7 @@ def in_millimetres(root):
         scaled(root, tag, 1e3, attributes=names)
 
 
-# The fault: what is done to the robot, which words tell it, and which link or joint.
+# Each fault: a change to the robot, words of the warning, and the link or joint that it names.
 FAULTS = {
     "a wheel's moments swapped": (
         lambda r: swap(r, "lidar", "ixx", "izz"), "round about their joint", "lidar"),
@@ -191,19 +192,18 @@ def test_a_sound_robot_raises_no_warning(tmp_path):
 
 
 @pytest.mark.parametrize(("plant", "words", "where"), FAULTS.values(), ids=FAULTS)
-def test_a_planted_fault_is_told(tmp_path, plant, words, where):
+def test_a_planted_fault_raises_a_warning(tmp_path, plant, words, where):
     root = quadruped()
     plant(root)
     warnings = read(root, tmp_path).warnings
     assert any(re.search(f"{words}.*{where}", warning) for warning in warnings), warnings
 
 
-def test_every_link_of_one_test_is_in_one_sentence(tmp_path):
+def test_one_warning_names_all_links_with_the_same_fault(tmp_path):
     root = quadruped()
     scaled(root, "inertia", 1e6, ".*_hip")
-    found = [each for each in read(root, tmp_path).warnings if "more inertia" in each]
-    assert len(found) == 1
-    assert all(f"{leg}_hip (" in found[0] for leg in ("FL", "FR", "HL", "HR"))
+    (warning,) = (text for text in read(root, tmp_path).warnings if "more inertia" in text)
+    assert all(f"{leg}_hip (" in warning for leg in ("FL", "FR", "HL", "HR"))
 
 
 def test_a_posture_outside_the_limits_and_a_foot_in_the_air(tmp_path):
@@ -218,25 +218,25 @@ def test_strict_makes_a_warning_fatal(tmp_path):
     root = quadruped()
     swap(root, "lidar", "ixx", "izz")
     read(root, tmp_path)
-    typed = ("inspect", tmp_path / "robot.urdf")
-    assert run(*typed).code == 0
-    refused = run(*typed, "--strict")
+    command = ("inspect", tmp_path / "robot.urdf")
+    assert run(*command).code == 0
+    refused = run(*command, "--strict")
     assert refused.code == 3
     assert "round about their joint" in refused.output
 
 
-def test_solo12_is_sound_but_for_its_efforts_and_judged_in_no_time():
+def test_solo12_has_only_implausible_efforts_and_is_checked_quickly():
     robot = read_robot(SOLO12)
-    judge = (robot.tree, robot.trunk, robot.legs, robot.posture, robot.mass_properties)
+    checked = (robot.tree, robot.trunk, robot.legs, robot.posture, robot.mass_properties)
     start = time.process_time()
-    (warning,) = plausibility_warnings(*judge)
+    (warning,) = plausibility_warnings(*checked)
     assert "efforts over 10 times weight" in warning, "the public file states 1000 N m"
     assert time.process_time() - start < 0.1
 
 
 @pytest.mark.parametrize("factor", [1e-300, 1e-75, 1e60])
 @pytest.mark.parametrize("tag", ["mass", "inertia", "box"])
-def test_numbers_at_the_edge_are_judged_without_a_warning_of_arithmetic(tmp_path, tag, factor):
+def test_extreme_numbers_raise_no_arithmetic_warning(tmp_path, tag, factor):
     root = quadruped()
     scaled(root, tag, factor)
     with suppress(RobotError):

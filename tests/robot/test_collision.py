@@ -1,7 +1,7 @@
 """Distances to links at random joint values, with Pinocchio's kinematics.
 
-Against points on the hulls of trimesh, and against coal where links are primitives: of hulls with
-hundreds of faces coal tells up to 10 mm too much.
+Compared with points on the hulls of trimesh, and with coal where links are primitives: for hulls
+with hundreds of faces coal overestimates the distance by up to 10 mm.
 """
 
 from functools import cache
@@ -42,8 +42,8 @@ def pinocchio_of(name):
     return model, geometry
 
 
-def placed(name, posture):
-    """Each collision shape, with its place in the trunk, which is the root."""
+def placed_shapes(name, posture):
+    """Each collision shape with its placement in the trunk frame, which is the root's."""
     model, geometry = pinocchio_of(name)
     data, geometry_data = model.createData(), geometry.createData()
     q = configuration(model, posture)
@@ -59,8 +59,8 @@ def hull_of(path):
 def by_trimesh(name, posture, point):
     """Least distance from a point to the hulls of all links; negative inside one."""
     distances = []
-    for each, at in placed(name, posture):
-        hull, local = hull_of(each.meshPath), at.actInv(point)
+    for geometry, at in placed_shapes(name, posture):
+        hull, local = hull_of(geometry.meshPath), at.actInv(point)
         outside = ((local - hull.triangles[:, 0]) * hull.face_normals).sum(axis=1).max() > 0.0
         distance = trimesh.proximity.closest_point_naive(hull, [local])[1][0]
         distances.append(distance if outside else -distance)
@@ -69,22 +69,22 @@ def by_trimesh(name, posture, point):
 
 def by_coal(name, posture, shape, placement):
     """Least distance from any link to a shape."""
-    where = coal.Transform3s(placement.rotation, placement.translation)
+    place = coal.Transform3s(placement.rotation, placement.translation)
     return min(
         coal.distance(
-            each.geometry,
+            geometry.geometry,
             coal.Transform3s(at.rotation, at.translation),
             shape,
-            where,
+            place,
             coal.DistanceRequest(),
             coal.DistanceResult(),
         )
-        for each, at in placed(name, posture)
+        for geometry, at in placed_shapes(name, posture)
     )
 
 
 def cases(name, count):
-    """Postures, and centres around the trunk."""
+    """Random postures, each with a point around the trunk."""
     collision = collision_model(name)
     postures = drawn(full_ranges(collision.robot, collision.robot.tree.joints), count)
     centers = np.random.default_rng(1).uniform(-0.4, 0.4, (count, 3))
@@ -93,26 +93,26 @@ def cases(name, count):
 
 @pytest.mark.parametrize("name", [SOLO12, BOLT])
 def test_balls_and_hulls(name):
-    collision, drawn_cases = cases(name, 20)
-    for posture, center in drawn_cases:
-        wanted = by_trimesh(name, posture, center) - 0.03
-        found = collision.nearest(Ball(center, 0.03), collision.poses([posture]), collision.parts)
-        assert found.distance == pytest.approx(wanted, abs=2e-6)
+    collision, pairs = cases(name, 20)
+    for posture, center in pairs:
+        expected = by_trimesh(name, posture, center) - 0.03
+        nearest = collision.nearest(Ball(center, 0.03), collision.poses([posture]), collision.parts)
+        assert nearest.distance == pytest.approx(expected, abs=2e-6)
 
 
 def test_drums_and_primitives():
-    collision, drawn_cases = cases(A1, 60)
+    collision, pairs = cases(A1, 60)
     axis = np.array([np.sin(0.6), np.cos(0.6), 0.0])
-    turn = pin.Quaternion.FromTwoVectors(np.array([0.0, 0.0, 1.0]), axis).matrix()
-    for posture, center in drawn_cases:
-        wanted = by_coal(A1, posture, coal.Cylinder(0.05, 0.012), pin.SE3(turn, center))
+    rotation = pin.Quaternion.FromTwoVectors(np.array([0.0, 0.0, 1.0]), axis).matrix()
+    for posture, center in pairs:
+        expected = by_coal(A1, posture, coal.Cylinder(0.05, 0.012), pin.SE3(rotation, center))
         poses = collision.poses([posture])
-        found = collision.nearest(Drum(center, axis, 0.05, 0.012), poses, collision.parts)
-        # Of solids that overlap each library tells the depth in its own way.
-        if wanted > 0.0:
-            assert found.distance == pytest.approx(wanted, abs=5e-6)
+        nearest = collision.nearest(Drum(center, axis, 0.05, 0.012), poses, collision.parts)
+        # Each library defines the depth of overlapping solids in its own way.
+        if expected > 0.0:
+            assert nearest.distance == pytest.approx(expected, abs=5e-6)
         else:
-            assert found.distance <= 1e-6
+            assert nearest.distance <= 1e-6
 
 
 def test_parts_know_the_joints_that_move_them():
@@ -129,54 +129,54 @@ def test_a_limb_that_touches_in_the_nominal_posture_with_a_joint_at_its_limit():
     collision = CollisionModel(read_robot(path, joints={knee: limit}))
     (calf,) = (part for part in collision.parts if part.joints[-1:] == (knee,))
     ball = Ball(collision.nominal.positions[0, calf.geoms[-1]], 0.01)
-    (reach,) = (each for each in reaches(collision, [ball]) if each.part == calf.name)
+    (reach,) = (reach for reach in reaches(collision, [ball]) if reach.part == calf.name)
     assert reach.joints
     assert reach.joints.items() <= collision.robot.posture.items(), "nothing has to move"
 
 
 @pytest.mark.parametrize("name", [SOLO12, A1])
 @pytest.mark.parametrize("within", [0.01, 0.05, 10.0])
-def test_what_is_left_out_as_far_off_is_no_nearer(name, within):
-    """Each part in each posture alone, where neither boxes nor bounds leave anything out."""
+def test_skipped_parts_are_not_the_nearest(name, within):
+    """Against each part in each posture alone, where neither boxes nor bounds skip anything."""
     collision, random = collision_model(name), np.random.default_rng(5)
     ranges = full_ranges(collision.robot, collision.robot.tree.joints)
     poses = collision.poses(drawn(ranges, 24))
     for _ in range(4):
         center, axis = random.normal(scale=0.15, size=3), random.normal(size=3)
         for probe in (Ball(center, 0.03), Drum(center, axis / np.linalg.norm(axis), 0.02, 0.1)):
-            alone = [
+            separate = [
                 collision.nearest(probe, poses[index], [part], within=within)
                 for index in range(len(poses.postures))
                 for part in collision.parts
             ]
-            near = [each for each in alone if each is not None]
-            found = collision.nearest(probe, poses, collision.parts, within=within)
-            assert (found is None) == (not near)
-            if found is not None:
-                least = min(near, key=lambda each: each.distance)
-                assert found.distance == pytest.approx(least.distance, abs=1e-7)
-                assert found.posture == least.posture
-            single = poses[0]
-            near = collision.nearest(probe, single, collision.parts, within=within)
-            kept = collision.near([probe], single, collision.parts, within)
-            assert near is None or kept == [probe]
+            within_range = [distance for distance in separate if distance is not None]
+            nearest = collision.nearest(probe, poses, collision.parts, within=within)
+            assert (nearest is None) == (not within_range)
+            if nearest is not None:
+                least = min(within_range, key=lambda separation: separation.distance)
+                assert nearest.distance == pytest.approx(least.distance, abs=1e-7)
+                assert nearest.posture == least.posture
+            pose = poses[0]
+            nearest = collision.nearest(probe, pose, collision.parts, within=within)
+            kept = collision.near([probe], pose, collision.parts, within)
+            assert nearest is None or kept == [probe]
 
 
 def test_postures_may_start_from_another_one():
     collision = collision_model(SOLO12)
     ranges = full_ranges(collision.robot, collision.robot.tree.joints)
     start, *others = drawn(ranges, 4)
-    changed = [{name: each[name] for name in list(each)[:2]} for each in others]
+    changed = [{name: posture[name] for name in list(posture)[:2]} for posture in others]
     part = collision.parts[-1]
-    whole = collision.poses([{**start, **each} for each in changed])
+    expected = collision.poses([{**start, **posture} for posture in changed])
     found = collision.poses(changed, [part], start=start)
-    assert list(found.postures) == list(whole.postures)
-    np.testing.assert_array_equal(found.positions[:, part.geoms], whole.positions[:, part.geoms])
-    np.testing.assert_array_equal(found.axes[:, part.geoms], whole.axes[:, part.geoms])
+    assert list(found.postures) == list(expected.postures)
+    np.testing.assert_array_equal(found.positions[:, part.geoms], expected.positions[:, part.geoms])
+    np.testing.assert_array_equal(found.axes[:, part.geoms], expected.axes[:, part.geoms])
 
 
-def test_a_fine_mesh_that_only_shows_is_met_by_its_hull(tmp_path):
-    """MuJoCo looks over all of its vertices otherwise, a thousand times as long."""
+def test_a_fine_visual_mesh_collides_as_its_hull(tmp_path):
+    """Without the hull MuJoCo searches all vertices, which takes a thousand times as long."""
     ball = trimesh.creation.icosphere(subdivisions=4, radius=0.1)
     ball.export(tmp_path / "ball.stl")
     (tmp_path / "shown.xml").write_text(
@@ -191,28 +191,31 @@ def test_a_fine_mesh_that_only_shows_is_met_by_its_hull(tmp_path):
     arm = next(part for part in model.parts if part.limb)
     assert (model._model.mesh_graphadr[model._model.geom_dataid[arm.geoms]] >= 0).all()
     probe = Ball(np.array([0.0, 0.0, 0.0]), 0.05)
-    near = model.nearest(probe, model.nominal, [arm])
-    assert near.distance == pytest.approx(0.5 - 0.1 - 0.05, abs=1e-3)
+    nearest = model.nearest(probe, model.nominal, [arm])
+    assert nearest.distance == pytest.approx(0.5 - 0.1 - 0.05, abs=1e-3)
 
 
 @pytest.mark.slow
-def test_legs_that_give_way_on_their_feet_kick_no_heel_up():
-    """A foot's middle is below all of the trunk; what other legs do is as it was drawn."""
+def test_landing_legs_keep_their_feet_below_the_trunk():
+    """No foot's centre rises above the trunk's bottom; legs whose foot is lower stay as drawn."""
     collision = collision_model("human_description/robots/human")
     robot = collision.robot
-    low = -trunk_extent(robot.tree, robot.trunk, -np.eye(3)[2])
-    postures = {each: landing_poses(collision, on_feet=each).postures for each in (False, True)}
+    trunk_bottom = -trunk_extent(robot.tree, robot.trunk, -np.eye(3)[2])
+    postures = {on_feet: landing_poses(collision, on_feet=on_feet).postures for on_feet in (0, 1)}
 
     def heights(postures):
         """Heights of the feet in B [m], a row for each posture."""
         places = (
-            robot.tree.placements_from(robot.trunk, {**robot.posture, **each}) for each in postures
+            robot.tree.placements_from(robot.trunk, {**robot.posture, **changed})
+            for changed in postures
         )
         return np.array([[at[leg.body].point(leg.foot)[2] for leg in robot.legs] for at in places])
 
-    drawn_ones, standing = heights(postures[False]), heights(postures[True])
-    assert drawn_ones.max() > low
-    assert standing.max() < low
-    same = np.isclose(drawn_ones, standing)
-    assert 0.6 < same.mean() < 1.0
-    assert standing[~same] == pytest.approx(np.broadcast_to(standing[0], same.shape)[~same])
+    free, standing = heights(postures[0]), heights(postures[1])
+    assert free.max() > trunk_bottom
+    assert standing.max() < trunk_bottom
+    unchanged = np.isclose(free, standing)
+    assert 0.6 < unchanged.mean() < 1.0
+    assert standing[~unchanged] == pytest.approx(
+        np.broadcast_to(standing[0], unchanged.shape)[~unchanged]
+    )

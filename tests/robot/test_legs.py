@@ -8,7 +8,7 @@ from robots import ALL_URDFS, ROBOTS, robot_parameters
 
 from ocs_design.robot.reader import read_robot
 
-# Foot links whose origin is the middle of the ball, in files that do not say so with a sphere.
+# Foot links whose origin is the centre of the ball, in files without a sphere that says so.
 BARE_FOOT_RADIUS = {"solo_description/robots/solo12": 0.016, "go2_description/urdf/go2": 0.022}
 
 
@@ -135,12 +135,12 @@ def test_a_humanoid_whose_root_is_its_chest(tmp_path):
           </body>
         </body></worldbody></mujoco>"""
     )
-    found = read_robot(path)
-    assert (found.trunk, found.floating_base) == ("pelvis", "torso")
-    assert [leg.name for leg in found.legs] == ["left_foot", "right_foot"]
+    humanoid = read_robot(path)
+    assert (humanoid.trunk, humanoid.floating_base) == ("pelvis", "torso")
+    assert [leg.name for leg in humanoid.legs] == ["left_foot", "right_foot"]
     hinges = ("roll", "yaw", "pitch", "knee", "flex", "tilt")
-    assert found.legs[0].joints == tuple(f"left_{hinge}" for hinge in hinges)
-    # The middle of the soles: 0.05 m ahead of the ankle, 0.06 + 0.02 m below it.
-    assert found.legs[0].foot == pytest.approx([0.05, 0.0, -0.08], abs=1e-9)
-    assert found.standing_height == pytest.approx(0.05 + 0.8 * found.legs[0].length, abs=1e-4)
-    assert found.posture["left_knee"] > 0.5
+    assert humanoid.legs[0].joints == tuple(f"left_{hinge}" for hinge in hinges)
+    # The centre of the sole: 0.05 m ahead of the ankle, 0.06 + 0.02 m below it.
+    assert humanoid.legs[0].foot == pytest.approx([0.05, 0.0, -0.08], abs=1e-9)
+    assert humanoid.standing_height == pytest.approx(0.05 + 0.8 * humanoid.legs[0].length, abs=1e-4)
+    assert humanoid.posture["left_knee"] > 0.5

@@ -1,4 +1,4 @@
-"""A robot given by hand; MuJoCo weighs the box that stands for it."""
+"""A robot given by mass and inertia; MuJoCo weighs the box that stands for it."""
 
 import mujoco
 import numpy as np
@@ -25,8 +25,8 @@ from ocs_design.sizing.free_place import place_on_top
 SOLO12 = (0.0300029, 0.0514912, 0.0680453)
 
 
-def boxed_by_mujoco(robot):
-    """Mass, centre of mass and inertia of the robot's box, by MuJoCo from shape and mass alone."""
+def box_by_mujoco(robot):
+    """Mass properties of the robot's box, which MuJoCo computes from shape and mass alone."""
     (shape,) = robot.tree.bodies[0].shapes
     spec = mujoco.MjSpec()
     body = spec.worldbody.add_body(name="box")
@@ -63,19 +63,19 @@ def test_the_box_of_solo12():
 def test_the_box_has_the_mass_properties_that_were_given(density, sides, angles):
     mass = density * np.prod(sides)
     a, b, c = (side * side for side in sides)
-    turn = rotation_from_rpy(*angles)
-    inertia = turn @ np.diag([b + c, a + c, a + b]) @ turn.T * mass / 12.0
+    rotation = rotation_from_rpy(*angles)
+    inertia = rotation @ np.diag([b + c, a + c, a + b]) @ rotation.T * mass / 12.0
     upper = inertia[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
     robot = robot_by_hand(mass, upper, com=(0.1, -0.2, 0.3))
     given = MassProperties(mass, [0.1, -0.2, 0.3], inertia)
-    assert_same_mass_properties(boxed_by_mujoco(robot), given, 1e-9)
+    assert_same_mass_properties(box_by_mujoco(robot), given, 1e-9)
     assert sorted(robot.tree.bodies[0].shapes[0].size) == pytest.approx(
         np.sort(sides) / 2, rel=1e-6
     )
 
 
 @pytest.mark.parametrize(
-    ("mass", "inertia", "said"),
+    ("mass", "inertia", "message"),
     [
         (2.5, (0.03, 0.05, 0.09), "triangle inequality (0.03 + 0.05 < 0.09"),
         (2.5, (-0.03, 0.05, 0.05), "negative principal moment -0.03"),
@@ -87,10 +87,10 @@ def test_the_box_has_the_mass_properties_that_were_given(density, sides, angles)
         (2.5, (float("inf"), 0.05, 0.05), "not finite"),
     ],
 )
-def test_what_no_body_can_have_is_refused_with_its_numbers(mass, inertia, said):
+def test_unphysical_mass_properties_are_refused_with_their_values(mass, inertia, message):
     with pytest.raises(RobotError) as caught:
         robot_by_hand(mass, inertia)
-    assert said in caught.value.message
+    assert message in caught.value.message
     assert caught.value.hint
 
 
@@ -99,8 +99,8 @@ def test_an_inertia_has_three_or_six_numbers():
         robot_by_hand(2.5, (1.0, 1.0, 1.0, 0.0))
 
 
-def test_what_would_be_denser_than_tungsten_is_a_slip_of_units():
-    """A ball of tungsten can be; Solo12 with its inertia in kg mm2 taken for kg m2 cannot."""
+def test_a_robot_denser_than_tungsten_is_refused_as_a_wrong_unit():
+    """A ball of tungsten is accepted; Solo12 with its inertia divided by 10^6 is not."""
     radius = 0.01
     mass = 4.0 / 3.0 * np.pi * radius**3 * 19_299.0
     robot_by_hand(mass, [0.4 * mass * radius**2] * 3)
@@ -122,13 +122,13 @@ INCH, POUND, LB_IN_S2 = 0.0254, 0.45359237, 0.112984829
 
 @pytest.mark.parametrize(("height", "weight", "from_back", "from_crown", "moments"), MEASURED)
 def test_a_person_has_the_inertia_that_was_measured(height, weight, from_back, from_crown, moments):
-    one = person(weight * POUND, height * INCH)
-    assert np.diag(one.inertia) / LB_IN_S2 == pytest.approx(moments, rel=0.095)
-    assert one.standing_height == pytest.approx((height - from_crown) * INCH, rel=0.013)
+    adult = person(weight * POUND, height * INCH)
+    assert np.diag(adult.inertia) / LB_IN_S2 == pytest.approx(moments, rel=0.095)
+    assert adult.standing_height == pytest.approx((height - from_crown) * INCH, rel=0.013)
     assert BACK * height == pytest.approx(from_back, rel=0.025)
 
 
-def test_figures_of_a_person_are_means_of_those_measured():
+def test_gyration_radii_of_a_person_are_the_means_of_those_measured():
     squares = [np.array(i) * LB_IN_S2 / (w * POUND * (h * INCH) ** 2) for h, w, _, _, i in MEASURED]
     assert np.mean(squares, axis=0)[1:] == pytest.approx((PITCH_GYRATION, YAW_GYRATION), rel=5e-3)
     assert np.mean(squares, axis=0)[0] == pytest.approx(ROLL_GYRATION, rel=0.05)
@@ -137,10 +137,10 @@ def test_figures_of_a_person_are_means_of_those_measured():
 def test_a_payload_is_a_second_body_on_the_back():
     alone, loaded = person(75.0, 1.75), person(75.0, 1.75, 10.0)
     point = np.array([-BACK, 0.0, MID_TRUNK - HEIGHT_OF_MASS]) * 1.75
-    arms = ((alone, 75.0, alone.com), (None, 10.0, point))
+    masses = ((alone, 75.0, alone.com), (None, 10.0, point))
     expected = alone.inertia.copy()
-    for _, mass, at in arms:
-        arm = at - loaded.com
+    for _, mass, position in masses:
+        arm = position - loaded.com
         expected += mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
     np.testing.assert_allclose(loaded.com, 10.0 / 85.0 * point)
     np.testing.assert_allclose(loaded.inertia, expected)

@@ -1,4 +1,4 @@
-"""Where meshes lie, how far they reach, and which are not opened."""
+"""Meshes: where they are found, their bounds, and which are not opened."""
 
 from pathlib import Path
 from unittest import mock
@@ -22,15 +22,15 @@ def no_ros(monkeypatch):
     monkeypatch.delenv("CMAKE_PREFIX_PATH", raising=False)
 
 
-def make(path: Path) -> Path:
+def touch(path: Path) -> Path:
     path.parent.mkdir(parents=True, exist_ok=True)
     path.touch()
     return path
 
 
 def test_the_given_package_path_goes_first(tmp_path: Path, monkeypatch):
-    given = make(tmp_path / "given" / "m.stl")
-    make(tmp_path / "ros" / "bot" / "m.stl")
+    given = touch(tmp_path / "given" / "m.stl")
+    touch(tmp_path / "ros" / "bot" / "m.stl")
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path / "ros"))
     finder = MeshFinder(tmp_path, {"bot": tmp_path / "given"})
     assert finder("package://bot/m.stl") == given
@@ -47,7 +47,7 @@ def test_the_given_package_path_goes_first(tmp_path: Path, monkeypatch):
     ],
 )
 def test_ros_environment_is_searched(tmp_path: Path, monkeypatch, variable, entry, package):
-    mesh = make(tmp_path / package / "meshes" / "m.stl")
+    mesh = touch(tmp_path / package / "meshes" / "m.stl")
     monkeypatch.setenv(variable, f"/nowhere:{tmp_path / entry}")
     assert MeshFinder(Path("/elsewhere"), {})("package://bot/meshes/m.stl") == mesh
 
@@ -55,13 +55,13 @@ def test_ros_environment_is_searched(tmp_path: Path, monkeypatch, variable, entr
 @pytest.mark.parametrize("scheme", ["package", "model"])
 @pytest.mark.parametrize("start", ["ws/bot/urdf", "ws/other/urdf/deep", "ws/bot"])
 def test_folders_above_the_robot_are_searched(tmp_path: Path, scheme, start):
-    mesh = make(tmp_path / "ws" / "bot" / "meshes" / "m.stl")
+    mesh = touch(tmp_path / "ws" / "bot" / "meshes" / "m.stl")
     (tmp_path / start).mkdir(parents=True, exist_ok=True)
     assert MeshFinder(tmp_path / start, {})(f"{scheme}://bot/meshes/m.stl") == mesh
 
 
 def test_plain_and_file_addresses(tmp_path: Path):
-    mesh = make(tmp_path / "a b" / "m.stl")
+    mesh = touch(tmp_path / "a b" / "m.stl")
     finder = MeshFinder(tmp_path, {})
     for name in ("a b/m.stl", str(mesh), f"file://{tmp_path}/a%20b/m.stl", "file://a b/m.stl"):
         assert finder(name) == mesh
@@ -71,7 +71,7 @@ def test_plain_and_file_addresses(tmp_path: Path):
 @pytest.mark.parametrize(
     "name", ["gone.stl", "package://bot/m.stl", "package://", "http://x/m.stl", "", "a\0b"]
 )
-def test_what_is_missing_is_noted_once(tmp_path: Path, name):
+def test_a_missing_mesh_is_noted_once(tmp_path: Path, name):
     finder = MeshFinder(tmp_path, {})
     assert finder(name) is None
     assert finder(name) is None
@@ -79,7 +79,7 @@ def test_what_is_missing_is_noted_once(tmp_path: Path, name):
 
 
 @pytest.mark.parametrize(
-    ("name", "at", "cure"),
+    ("name", "place", "cure"),
     [
         ("package://bot/m/a.stl", "ws/src/other/m/a.stl", "--package-path bot={}/ws/src/other"),
         ("package://bot/m/a.stl", "ws/it's/m/a.stl", "bot='{}/ws/it'\"'\"'s'"),
@@ -90,9 +90,9 @@ def test_what_is_missing_is_noted_once(tmp_path: Path, name):
         ("m/a.stl", "a.stl", "put them where the file names them, below {}/ws/bot/urdf"),
     ],
 )
-def test_where_missing_meshes_lie_is_found_near_the_file(tmp_path, monkeypatch, name, at, cure):
+def test_missing_meshes_are_found_near_the_file(tmp_path, monkeypatch, name, place, cure):
     monkeypatch.setenv("CMAKE_PREFIX_PATH", str(tmp_path / "lib"))
-    make(tmp_path / at)
+    touch(tmp_path / place)
     finder = MeshFinder(tmp_path / "ws" / "bot" / "urdf", {"bot": tmp_path / "empty"})
     finder.missing[name] = None
     assert cure.format(tmp_path) in finder.cure()
@@ -103,9 +103,9 @@ def test_the_search_for_missing_meshes_ends(tmp_path):
         (tmp_path / "ws" / f"{name}" / "deep").mkdir(parents=True)
     finder = MeshFinder(tmp_path / "ws", {})
     finder("package://bot/a.stl")
-    with mock.patch.object(Path, "is_file", return_value=False) as looked:
+    with mock.patch.object(Path, "is_file", return_value=False) as is_file:
         assert "bot=DIR" in finder.cure()
-    assert looked.call_count < 2 * MOST_FOLDERS + 1
+    assert is_file.call_count < 2 * MOST_FOLDERS + 1
 
 
 BOX = trimesh.creation.box(
@@ -166,13 +166,13 @@ def test_meshes_that_are_too_large_or_in_archives_are_not_opened(tmp_path: Path,
         check_mesh_file(tmp_path / "box.3mf")
 
 
-def test_collada_with_y_up_is_turned_where_links_then_lie_in_their_meshes():
-    """As made, iCub mirrors itself in y: boxes around what is left and right do, with limbs at 0.
+def test_collada_with_y_up_is_rotated_where_the_links_then_fit():
+    """iCub is symmetric in y: so are the boxes around its left and right links at zero.
 
-    Not turned, its head lies beside the neck and its pelvis at its right hip.
+    Not rotated, its head would lie beside the neck and its pelvis at the right hip.
     """
     tree = load(ROBOTS / "icub_description" / "robots" / "icub.urdf").tree
-    assert any("56 .dae meshes declare y as up" in each for each in tree.warnings)
+    assert any("56 .dae meshes declare y as up" in warning for warning in tree.warnings)
     boxes = {}
     for body, place in zip(tree.bodies, tree.placements_from("base_link", {}), strict=True):
         points = [
@@ -204,15 +204,15 @@ def test_collada_with_y_up_is_turned_where_links_then_lie_in_their_meshes():
         pytest.param("go1_description/urdf/go1", marks=pytest.mark.slow),
     ],
 )
-def test_collada_with_y_up_that_lies_right_is_left(robot):
-    """Whose files say so too, and which lie in their links as they are."""
+def test_collada_with_y_up_that_fits_is_not_rotated(robot):
+    """These files declare y as up too, but their meshes fit the links as they are."""
     tree = load(ROBOTS / f"{robot}.urdf").tree
     shapes = [shape for body in tree.bodies for shape in body.shapes if shape.mesh is not None]
     assert any(b"<up_axis>Y_UP" in shape.mesh.read_bytes()[:4096] for shape in shapes)
-    assert not any("declare y as up" in each for each in tree.warnings)
+    assert not any("declare y as up" in warning for warning in tree.warnings)
 
 
-def test_the_folder_and_the_package_around_it(tmp_path):
+def test_roots_are_the_folder_and_the_package_around_it(tmp_path):
     folder = tmp_path / "package" / "urdf"
     folder.mkdir(parents=True)
     assert roots_of(folder / "robot.urdf") == (folder,)
@@ -234,7 +234,7 @@ def test_a_workspace_that_is_installed_by_links(tmp_path):
     assert package_roots(tmp_path) == ()
 
 
-def test_a_link_leads_out(tmp_path):
+def test_a_symbolic_link_out_of_the_folder_is_not_below_it(tmp_path):
     (tmp_path / "robot").mkdir()
     (tmp_path / "secret").touch()
     (tmp_path / "robot" / "a").symlink_to(tmp_path / "secret")

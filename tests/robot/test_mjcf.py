@@ -133,7 +133,7 @@ def test_a_linear_joint_equality_is_a_mimic_as_mujoco_holds_it(slope, constant):
 
 
 @pytest.mark.parametrize(
-    ("equality", "told"),
+    ("equality", "pattern"),
     [
         ("", r"not part of the robot, left out: .*crate"),
         ("", r"swivel"),
@@ -144,10 +144,10 @@ def test_a_linear_joint_equality_is_a_mimic_as_mujoco_holds_it(slope, constant):
         ('<weld body1="trunk"/>', r"left out: trunk to world$"),
     ],
 )
-def test_what_is_left_out_or_held_is_told(equality, told):
+def test_what_is_left_out_or_held_raises_a_warning(equality, pattern):
     tree = read(with_equality(equality).replace('name="shoe"', 'name="shoe" gravcomp="1"'))
-    assert any(re.search(told, each) for each in tree.warnings), tree.warnings
-    assert any("gravcomp" in each and each.endswith(": shoe") for each in tree.warnings)
+    assert any(re.search(pattern, warning) for warning in tree.warnings), tree.warnings
+    assert any("gravcomp" in warning and warning.endswith(": shoe") for warning in tree.warnings)
     assert tree.joints["a"].mimic is None
     assert tree.loops == ((("toe", "trunk"),) if "connect" in equality else ())
 
@@ -165,9 +165,9 @@ def test_without_a_free_body_the_one_with_joints_is_freed_with_a_warning():
     assert any("free joint" in warning for warning in tree.warnings)
 
 
-MESHES = """<mujoco><compiler meshdir="meshes"/><asset><mesh name="m" file="m.stl"/></asset>
+MESH_MODEL = """<mujoco><compiler meshdir="meshes"/><asset><mesh name="m" file="m.stl"/></asset>
 <worldbody>
-  <body name="trunk"><freejoint/>{inside}<geom type="mesh" mesh="m" {how}/></body>
+  <body name="trunk"><freejoint/>{inside}<geom type="mesh" mesh="m" {attributes}/></body>
 </worldbody>
 </mujoco>"""
 INERTIAL = '<inertial mass="1" pos="0 0 0" diaginertia="1 1 1"/>'
@@ -175,17 +175,17 @@ SPHERE = '<geom size=".1"/>'
 
 
 @pytest.mark.parametrize(
-    ("inside", "how"), [(INERTIAL, ""), (SPHERE, 'mass="0"'), (SPHERE, 'density="0"')]
+    ("inside", "attributes"), [(INERTIAL, ""), (SPHERE, 'mass="0"'), (SPHERE, 'density="0"')]
 )
-def test_a_missing_mesh_that_weighs_nothing_is_only_warned_of(tmp_path, inside, how):
-    tree = read(MESHES.format(inside=inside, how=how), tmp_path)
+def test_a_missing_mesh_that_weighs_nothing_is_only_warned_of(tmp_path, inside, attributes):
+    tree = read(MESH_MODEL.format(inside=inside, attributes=attributes), tmp_path)
     assert any("m.stl" in warning for warning in tree.warnings)
 
 
-@pytest.mark.parametrize(("inside", "how"), [("", ""), (SPHERE, ""), (SPHERE, 'mass="2"')])
-def test_a_missing_mesh_that_weighs_is_refused(tmp_path, inside, how):
+@pytest.mark.parametrize(("inside", "attributes"), [("", ""), (SPHERE, ""), (SPHERE, 'mass="2"')])
+def test_a_missing_mesh_that_weighs_is_refused(tmp_path, inside, attributes):
     with pytest.raises(RobotError, match=r"trunk.*m\.stl") as caught:
-        read(MESHES.format(inside=inside, how=how), tmp_path)
+        read(MESH_MODEL.format(inside=inside, attributes=attributes), tmp_path)
     assert "<inertial>" in caught.value.hint
 
 
@@ -194,7 +194,7 @@ def test_a_mesh_weighs_and_its_box_is_the_shape(tmp_path: Path):
     box = trimesh.creation.box(extents=(1, 2, 3))
     box.apply_translation((4, 0, 0))
     box.export(tmp_path / "meshes" / "m.stl")
-    (body,) = read(MESHES.format(inside="", how=""), tmp_path).bodies
+    (body,) = read(MESH_MODEL.format(inside="", attributes=""), tmp_path).bodies
     assert body.mass_properties.mass == pytest.approx(6000.0)
     np.testing.assert_allclose(body.mass_properties.com, [4, 0, 0], atol=1e-6)
     (shape,) = body.shapes
@@ -207,17 +207,17 @@ def test_utf_16_is_read():
     assert read_mjcf(ZOO.encode("utf-16"), None).name == "zoo"
 
 
-def test_warnings_of_mujoco_are_told_and_leave_no_log_file(tmp_path: Path, monkeypatch):
+def test_warnings_of_mujoco_are_passed_on_and_leave_no_log_file(tmp_path: Path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     tree = read(ZOO.replace("<compiler", '<compiler settotalmass="5"'))
     assert any(warning.startswith("MuJoCo: ") for warning in tree.warnings)
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_body_without_a_name_is_told_by_the_one_above(tmp_path: Path):
+def test_a_body_without_a_name_is_located_by_its_parent(tmp_path: Path):
     nameless = '<body><joint/><geom type="mesh" mesh="m"/></body>'
     with pytest.raises(RobotError, match="without a name below body 'trunk'"):
-        read(MESHES.format(inside=SPHERE + nameless, how='mass="0"'), tmp_path)
+        read(MESH_MODEL.format(inside=SPHERE + nameless, attributes='mass="0"'), tmp_path)
 
 
 LOOSE = '<body name="crate"><freejoint/><geom size=".3"/></body>'
@@ -227,11 +227,11 @@ ARM = DOOR.replace("door", "{0}")
 DRIVEN = "<actuator>{}</actuator>"
 DRONE = '<body name="drone"><freejoint/><geom size=".1"/><site name="{0}"/></body>'
 FREE = '<body name="{0}"><freejoint/>' + INSIDE
-"""Things of a scene; `{0}` names what an actuator may act on."""
+"""Bodies of a scene; `{0}` names what an actuator may act on."""
 
 
 @pytest.mark.parametrize(
-    ("bodies", "driven", "robot"),
+    ("bodies", "actuators", "robot"),
     [
         (LOOSE + ARM.format("arm"), '<motor joint="arm"/>', "arm"),
         (DOOR.format("hinge") + LOOSE + ARM.format("arm"), '<position joint="arm"/>', "arm"),
@@ -248,8 +248,8 @@ FREE = '<body name="{0}"><freejoint/>' + INSIDE
         ('<body name="a"><geom size="1"/></body><body name="b"><geom size="1"/></body>', "", ""),
     ],
 )
-def test_the_robot_is_what_is_driven_or_free_with_joints_else_it_is_asked(bodies, driven, robot):
-    text = f"<mujoco><worldbody>{bodies}</worldbody>{DRIVEN.format(driven)}</mujoco>".encode()
+def test_the_robot_is_the_body_that_is_driven_or_free_with_joints(bodies, actuators, robot):
+    text = f"<mujoco><worldbody>{bodies}</worldbody>{DRIVEN.format(actuators)}</mujoco>".encode()
     if robot:
         tree = read_mjcf(text, None)
         assert tree.bodies[0].name == robot
@@ -291,16 +291,16 @@ def test_an_include_may_not_leave_the_folder(folder):
             read_with(folder, file)
 
 
-def test_within_a_repository_it_may(folder):
+def test_an_include_may_leave_the_folder_within_a_repository(folder):
     (folder.parent / ".git").mkdir()
     assert read_with(folder, "../out.xml").bodies[0].name == "trunk"
 
 
-@pytest.mark.parametrize("there", [["parts"], ["parts", "."]])
-def test_what_an_included_file_includes_is_looked_for_as_mujoco_does(folder, there):
+@pytest.mark.parametrize("folders", [["parts"], ["parts", "."]])
+def test_nested_includes_are_searched_for_as_in_mujoco(folder, folders):
     (folder / "parts").mkdir()
     (folder / "parts" / "a.xml").write_text('<mujoco><include file="b.xml"/></mujoco>')
-    for place in there:
+    for place in folders:
         text = f'<mujoco><default><geom density="{900 + 100 * len(place)}"/></default></mujoco>'
         (folder / place / "b.xml").write_text(text)
     (folder / "robot.xml").write_text(MODEL.format("parts/a.xml"))
@@ -309,7 +309,7 @@ def test_what_an_included_file_includes_is_looked_for_as_mujoco_does(folder, the
     assert tree.bodies[0].mass_properties.mass == pytest.approx(model.body_mass[1], rel=1e-12)
 
 
-def test_a_pipe_or_a_giant_is_not_waited_for(folder, monkeypatch):
+def test_pipes_and_huge_files_are_refused(folder, monkeypatch):
     os.mkfifo(folder / "pipe.xml")
     with pytest.raises(RobotError, match="not a plain file"):
         read_with(folder, "pipe.xml")
@@ -320,7 +320,7 @@ def test_a_pipe_or_a_giant_is_not_waited_for(folder, monkeypatch):
 
 
 @pytest.mark.parametrize("number", ["1e300", "-1e80", "inf", "1e999"])
-def test_numbers_beyond_all_measure_are_refused(number):
+def test_huge_numbers_are_refused(number):
     text = (
         f'<mujoco><worldbody><body name="a" pos="{number} 0 0">{BODY}</body></worldbody></mujoco>'
     )
@@ -352,7 +352,7 @@ def attaching(folder, file="parts/leg.xml"):
     return text
 
 
-def test_attached_models_are_read_by_their_own_rules_from_any_folder(folder):
+def test_attached_models_keep_their_own_compiler_settings(folder):
     tree = read(attaching(folder), folder)
     model = mujoco.MjModel.from_xml_path(str(folder / "robot.xml"))
     data = mujoco.MjData(model)
@@ -363,7 +363,7 @@ def test_attached_models_are_read_by_their_own_rules_from_any_folder(folder):
     assert tree.joints["left_hip"].upper == pytest.approx(np.pi / 2.0)
 
 
-def test_a_model_that_holds_itself_or_lies_elsewhere_is_refused(folder):
+def test_a_model_that_attaches_itself_or_lies_elsewhere_is_refused(folder):
     text = attaching(folder, "robot.xml")
     with pytest.raises(RobotError, match="contain itself"):
         read(text, folder)

@@ -1,4 +1,4 @@
-"""The nearest inertia that MuJoCo takes, against a general optimiser."""
+"""The nearest inertia that MuJoCo accepts."""
 
 import mujoco
 import numpy as np
@@ -13,7 +13,7 @@ FLOOR = 1e-12
 MOMENT = st.floats(-1.0, 1.0)
 
 
-def compiles(found):
+def compiled(found):
     spec = mujoco.MjSpec()
     body = spec.worldbody.add_body(
         mass=found.mass,
@@ -28,34 +28,34 @@ def compiles(found):
 
 CORNERS = 1e-3 * np.array([[1.0, 1.0, 1.0], [2.0, 1.0, 1.0], [1.0, 2.0, 1.0], [1.0, 1.0, 2.0]])
 RAYS = np.array([[0.0, 1.0, 1.0], [1.0, 0.0, 1.0], [1.0, 1.0, 0.0]])
-"""Of the convex set of moments that can be and are no less than 1e-3."""
+"""Corners and rays of the convex set of physical moments that are no less than 1e-3."""
 
 
 @given(st.tuples(MOMENT, MOMENT, MOMENT))
 def test_moments_are_the_nearest_that_exist(moments):
-    """Nothing of the set lies on the side of the asked ones: the nearest of a convex set."""
-    asked = np.sort(moments)
-    found = nearest_physical_moments(asked, 1e-3)
-    assert found.min() >= 1e-3
-    assert found[0] + found[1] >= found[2] == found.max()
-    assert (RAYS @ (asked - found)).max() <= 1e-12
-    assert ((CORNERS - found) @ (asked - found)).max() <= 1e-12
+    """Projection on a convex set: no point of the set lies beyond the nearest one."""
+    requested = np.sort(moments)
+    nearest = nearest_physical_moments(requested, 1e-3)
+    assert nearest.min() >= 1e-3
+    assert nearest[0] + nearest[1] >= nearest[2] == nearest.max()
+    assert (RAYS @ (requested - nearest)).max() <= 1e-12
+    assert ((CORNERS - nearest) @ (requested - nearest)).max() <= 1e-12
 
 
 @given(st.tuples(*[st.floats(1e-6, 1e3)] * 3))
-def test_physical_moments_stay_as_they_are(spreads):
-    """Any three spreads of mass along the axes give moments of a real body."""
-    x, y, z = spreads
+def test_physical_moments_stay_as_they_are(second_moments):
+    """Any three second moments of mass along the axes give moments of a real body."""
+    x, y, z = second_moments
     moments = np.sort([y + z, x + z, x + y])
     np.testing.assert_array_equal(nearest_physical_moments(moments, FLOOR), moments)
 
 
 @pytest.mark.parametrize("excess", [1e-16, 4e-16, 1e-15, 1e-12])
-def test_mujoco_takes_a_plate_that_rounding_has_made_too_flat(excess):
+def test_mujoco_accepts_a_plate_that_rounding_has_made_too_flat(excess):
     raw = MassProperties(1.0, np.zeros(3), np.diag([1e-3, 1e-3, 2e-3 * (1.0 + excess)]))
     found = inertial(raw)
     assert found.warning is None
-    np.testing.assert_allclose(compiles(found).body_inertia[1], np.diag(raw.inertia), rtol=1e-9)
+    np.testing.assert_allclose(compiled(found).body_inertia[1], np.diag(raw.inertia), rtol=1e-9)
 
 
 def test_full_inertia_survives_the_principal_axes():
@@ -70,15 +70,15 @@ def test_full_inertia_survives_the_principal_axes():
         np.testing.assert_allclose(axes @ np.diag(found.moments) @ axes.T, inertia, rtol=1e-12)
 
 
-def test_an_impossible_inertia_is_mended_and_told():
+def test_an_impossible_inertia_is_corrected_with_a_warning():
     found = inertial(MassProperties(1.0, np.zeros(3), np.diag([1.0, 1.0, 5.0])))
     np.testing.assert_allclose(found.moments, [2.0, 2.0, 4.0], rtol=1e-12)
     assert "2, 2, 4 kg m^2" in found.warning
-    compiles(found)
+    compiled(found)
 
 
-def test_a_massless_body_weighs_next_to_nothing():
+def test_a_massless_body_gets_a_tiny_mass():
     found = inertial(MassProperties.zero())
     assert found.mass == 1e-9
     assert found.warning is not None
-    compiles(found)
+    compiled(found)

@@ -1,4 +1,4 @@
-"""Robots in MuJoCo: the same masses, joints and names as in the file, free and ready to touch."""
+"""Robots in MuJoCo: the masses, joints and names of the file, with a free base and contacts."""
 
 import re
 from dataclasses import replace
@@ -30,7 +30,7 @@ from ocs_design.robot.tree import JointKind
 from ocs_design.simulation.scene import robot_scene
 
 READABLE = [path for path in ALL_URDFS if path.name != "ur3.urdf"]
-MENDED = {"romeo_small", "romeo_laas_small", "romeo", "human"}
+CORRECTED = {"romeo_small", "romeo_laas_small", "romeo", "human"}
 
 MJCF = """<mujoco model="walker">
   <compiler angle="degree" meshdir="parts"/>
@@ -68,8 +68,8 @@ WITH_A_BALL = FREE | {
 }
 
 
-def unposed_robot(path: Path) -> Robot:
-    """Any robot, legged or not, at a posture within its limits."""
+def any_robot(path: Path) -> Robot:
+    """A robot, legged or not, at a random posture within its limits."""
     loaded = load(path)
     tree = loaded.tree
     base = tree.bodies[0].name
@@ -91,7 +91,7 @@ def unposed_robot(path: Path) -> Robot:
     )
 
 
-def posed(robot, built=None):
+def model_and_data(robot, built=None):
     """Model without visuals and its data in the robot's posture."""
     model = (built or build_spec(robot, visuals=False)).spec.compile()
     data = mujoco.MjData(model)
@@ -108,23 +108,23 @@ def write(folder: Path, text: str) -> Path:
 
 @pytest.mark.parametrize("path", one_per_folder(READABLE))
 def test_mass_and_inertia_are_the_trees(path):
-    robot = unposed_robot(path)
+    robot = any_robot(path)
     built = build_spec(robot, visuals=False)
-    model, data = posed(robot, built)
-    found = mujoco_mass_properties(model, data, 1)
-    if path.stem in MENDED:
+    model, data = model_and_data(robot, built)
+    weighed = mujoco_mass_properties(model, data, 1)
+    if path.stem in CORRECTED:
         assert built.warnings
-        assert found.mass == pytest.approx(robot.mass, rel=1e-7)
+        assert weighed.mass == pytest.approx(robot.mass, rel=1e-7)
         return
     assert built.warnings == ()
-    assert_same_mass_properties(found, robot.mass_properties, 1e-9)
-    assert found.mass == pytest.approx(robot.mass, rel=1e-12)
-    np.testing.assert_allclose(found.com, robot.com, atol=1e-12)
+    assert_same_mass_properties(weighed, robot.mass_properties, 1e-9)
+    assert weighed.mass == pytest.approx(robot.mass, rel=1e-12)
+    np.testing.assert_allclose(weighed.com, robot.com, atol=1e-12)
 
 
 def test_joints_are_those_of_the_file():
     robot = read_robot(SOLO12)
-    model, _ = posed(robot)
+    model, _ = model_and_data(robot)
     assert model.jnt_type[0] == mujoco.mjtJoint.mjJNT_FREE
     assert [model.joint(i).name for i in range(1, model.njnt)] == list(robot.tree.joints)
     for name, joint in robot.tree.joints.items():
@@ -136,22 +136,22 @@ def test_joints_are_those_of_the_file():
 
 def test_a_void_limit_is_no_limit():
     robot = read_robot(ROBOTS / "anymal_c_simple_description/urdf/anymal.urdf", posture="zero")
-    model, _ = posed(robot)
+    model, _ = model_and_data(robot)
     for name, joint in robot.tree.joints.items():
         assert bool(model.joint(name).limited[0]) == np.isfinite([joint.lower, joint.upper]).any()
 
 
 def test_a_mimic_joint_follows_its_leader():
-    robot = unposed_robot(ROBOTS / "panda_description/urdf/panda.urdf")
+    robot = any_robot(ROBOTS / "panda_description/urdf/panda.urdf")
     leaders = {name: j.mimic for name, j in robot.tree.joints.items() if j.mimic is not None}
     assert leaders
-    _, data = posed(robot)
+    _, data = model_and_data(robot)
     assert data.ne == len(leaders)
     np.testing.assert_allclose(data.efc_pos[: data.ne], 0.0, atol=1e-12)
 
 
 def test_a_root_link_called_world_gets_another_name():
-    robot = unposed_robot(ROBOTS / "ur_description/urdf/ur5_robot.urdf")
+    robot = any_robot(ROBOTS / "ur_description/urdf/ur5_robot.urdf")
     assert robot.tree.bodies[0].name == "world"
     spec = build_spec(robot, visuals=False).spec
     body, base = trunk_body(spec, robot)
@@ -163,31 +163,31 @@ def test_nothing_touches_in_the_nominal_posture():
     robot = read_robot(SOLO12)
     built = build_spec(robot, visuals=False)
     assert built.spec.excludes
-    _, data = posed(robot, built)
+    _, data = model_and_data(robot, built)
     assert data.ncon == 0
 
 
-def test_visuals_are_seen_but_never_touched():
+def test_visuals_are_shown_but_do_not_collide():
     robot = read_robot(SOLO12)
     with_visuals = build_spec(robot).spec.compile()
     without = build_spec(robot, visuals=False).spec.compile()
-    seen = with_visuals.geom_group == 2
-    assert seen.any()
-    assert not with_visuals.geom_contype[seen].any()
-    assert not with_visuals.geom_conaffinity[seen].any()
-    assert without.ngeom == np.count_nonzero(~seen)
+    visual = with_visuals.geom_group == 2
+    assert visual.any()
+    assert not with_visuals.geom_contype[visual].any()
+    assert not with_visuals.geom_conaffinity[visual].any()
+    assert without.ngeom == np.count_nonzero(~visual)
 
 
 @pytest.mark.slow
 def test_dae_meshes_are_converted():
-    robot = unposed_robot(ROBOTS / "panda_description/urdf/panda.urdf")
+    robot = any_robot(ROBOTS / "panda_description/urdf/panda.urdf")
     spec = build_spec(robot).spec
     assert any(shape.mesh and shape.mesh.suffix == ".dae" for shape in robot.tree.bodies[1].shapes)
     assert {Path(name).suffix for name in spec.assets} <= {".stl", ".obj"}
     assert spec.compile().nmesh > 0
 
 
-def test_it_touches_where_the_files_default_is_to_look_at_only(tmp_path):
+def test_feet_collide_where_the_file_turns_contacts_off_by_default(tmp_path):
     text = MJCF.format(**FREE).replace('contype="4"', 'contype="0" conaffinity="0"')
     robot = read_robot(write(tmp_path, text))
     model = build_spec(robot).spec.compile()
@@ -196,7 +196,7 @@ def test_it_touches_where_the_files_default_is_to_look_at_only(tmp_path):
         assert model.geom(foot_geom_name(leg)).contype == 1
 
 
-def test_a_foot_of_nothing_gets_something_to_stand_on():
+def test_a_foot_without_shape_gets_a_sphere():
     robot = read_robot(ROBOTS / "simple_humanoid_description/urdf/simple_humanoid.urdf")
     assert robot.legs
     model = build_spec(robot, visuals=False).spec.compile()
@@ -219,7 +219,7 @@ def test_broken_and_flat_meshes_are_left_out_with_a_warning(tmp_path, name, cont
     (tmp_path / name).write_bytes(content)
     mesh = f'<collision><geometry><mesh filename="{name}"/></geometry></collision>'
     (tmp_path / "robot.urdf").write_bytes(urdf(link("trunk", inertial(), mesh)))
-    built = build_spec(unposed_robot(tmp_path / "robot.urdf"))
+    built = build_spec(any_robot(tmp_path / "robot.urdf"))
     assert any(name in warning for warning in built.warnings)
     assert built.spec.compile().ngeom == 0
 
@@ -260,11 +260,11 @@ TIED = """<mujoco><worldbody><site name="hook" pos="0 0 2"/>
   <sensor><tendonpos tendon="rope"/></sensor></mujoco>"""
 
 
-KEY = '<keyframe><key name="home" ctrl="{}" qpos="0 0 1 1 0 0 0 0.1 0.2"/></keyframe></mujoco>'
+KEYFRAME = '<keyframe><key name="home" ctrl="{}" qpos="0 0 1 1 0 0 0 0.1 0.2"/></keyframe></mujoco>'
 
 
 @pytest.mark.parametrize("alone", [False, True])
-def test_what_ties_an_mjcf_robot_to_its_world_is_released(tmp_path, alone):
+def test_constraints_between_an_mjcf_robot_and_its_world_are_removed(tmp_path, alone):
     text = TIED
     if alone:
         for part in (
@@ -274,7 +274,7 @@ def test_what_ties_an_mjcf_robot_to_its_world_is_released(tmp_path, alone):
         ):
             text = re.sub(part, "", text)
         text = text.replace('<motor tendon="line"/>', "")
-    text = text.replace("</mujoco>", KEY.format("1 2" if alone else "1 2 3"))
+    text = text.replace("</mujoco>", KEYFRAME.format("1 2" if alone else "1 2 3"))
     robot = read_robot(write(tmp_path, text), trunk="trunk", legs=())
     model = build_spec(robot).spec.compile()
     assert [model.eq(index).name for index in range(model.neq)] == ["rod", "hold"]
@@ -283,7 +283,7 @@ def test_what_ties_an_mjcf_robot_to_its_world_is_released(tmp_path, alone):
     assert not robot_scene(robot).compile().neq
 
 
-def test_an_mjcf_robot_brings_its_includes(tmp_path):
+def test_an_mjcf_robot_keeps_its_includes(tmp_path):
     (tmp_path / "legs").mkdir()
     (tmp_path / "legs" / "leg.xml").write_text(
         '<mujocoinclude><body name="leg"><joint name="hip" axis="0 1 0"/>'
@@ -312,7 +312,7 @@ PLAYER = """<mujoco model="player"><worldbody>
 </worldbody></mujoco>"""
 
 
-def test_nobody_looks_at_what_is_left_out(tmp_path):
+def test_cameras_and_lights_do_not_target_removed_bodies(tmp_path):
     (tmp_path / "player.xml").write_text(PLAYER)
     built = build_spec(read_robot(tmp_path / "player.xml"))
     model = built.spec.compile()
@@ -326,23 +326,23 @@ def test_nobody_looks_at_what_is_left_out(tmp_path):
 DIRECTIONS = np.random.default_rng(0).normal(size=(500, 3))
 
 
-def reach(model):
-    """How far each mesh geom that may touch reaches in each direction [m], by its body and place.
+def support(model):
+    """Support function of each mesh geom that collides, in each direction [m], by geom.
 
     Two convex bodies are the same if their support functions are.
     """
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)
-    found = {}
+    supports = {}
     for geom in range(model.ngeom):
         mesh = model.geom_dataid[geom]
         if mesh < 0 or model.geom_contype[geom] == 0:
             continue
         first = model.mesh_vertadr[mesh]
-        own = model.mesh_vert[first : first + model.mesh_vertnum[mesh]].astype(np.float64)
-        placed = own @ data.geom_xmat[geom].reshape(3, 3).T + data.geom_xpos[geom]
-        found[geom] = (placed @ DIRECTIONS.T).max(axis=0)
-    return found
+        vertices = model.mesh_vert[first : first + model.mesh_vertnum[mesh]].astype(np.float64)
+        placed = vertices @ data.geom_xmat[geom].reshape(3, 3).T + data.geom_xpos[geom]
+        supports[geom] = (placed @ DIRECTIONS.T).max(axis=0)
+    return supports
 
 
 @pytest.mark.parametrize(
@@ -354,20 +354,20 @@ def reach(model):
 )
 def test_hulls_reach_as_far_as_the_meshes(name):
     robot = read_robot(ROBOTS / f"{name}.urdf")
-    whole, hulls = (build_spec(robot, visuals=shown).spec for shown in (True, False))
-    for geom in [geom for geom in whole.geoms if geom.contype == 0]:
-        whole.delete(geom)
-    before, after = whole.compile(), hulls.compile()
-    expected, found = reach(before), reach(after)
-    assert expected.keys() == found.keys() != set()
+    meshes, hulls = (build_spec(robot, visuals=shown).spec for shown in (True, False))
+    for geom in [geom for geom in meshes.geoms if geom.contype == 0]:
+        meshes.delete(geom)
+    before, after = meshes.compile(), hulls.compile()
+    expected, actual = support(before), support(after)
+    assert expected.keys() == actual.keys() != set()
     for geom, distance in expected.items():
-        np.testing.assert_allclose(found[geom], distance, rtol=0.0, atol=1e-6)
+        np.testing.assert_allclose(actual[geom], distance, rtol=0.0, atol=1e-6)
     assert after.nmeshvert < before.nmeshvert / 3
     assert after.body_inertia.tolist() == before.body_inertia.tolist()
     assert not hulls.assets
 
 
-def test_a_box_fitted_to_a_mesh_stays_as_it_is():
+def test_a_box_fitted_to_a_mesh_keeps_its_size():
     """Its size comes from the inertia of the mesh, which is not that of the hull."""
     ring = trimesh.creation.annulus(0.05, 0.1, 0.02)
     spec = mujoco.MjSpec()
@@ -392,23 +392,23 @@ def test_a_box_fitted_to_a_mesh_stays_as_it_is():
         ("solo_description/robots/solo12", set()),
     ],
 )
-def test_the_largest_go_first(name, left_out):
+def test_the_largest_visuals_are_left_out_first(name, left_out):
     tree = tree_of(name)
-    found = oversized_visuals(tree)
-    assert {path.name for path in found} == left_out
+    oversized = oversized_visuals(tree)
+    assert {path.name for path in oversized} == left_out
     shown = {
         shape.mesh
         for body in tree.bodies
         for shape in body.shapes
         if shape.mesh is not None and not shape.collides
     }
-    assert sum(path.stat().st_size for path in shown - found) <= VISUAL_BYTES
+    assert sum(path.stat().st_size for path in shown - oversized) <= VISUAL_BYTES
 
 
-def test_what_is_left_out_is_told_and_something_else_shown():
+def test_visuals_left_out_raise_a_warning_and_collision_shapes_are_shown():
     built = build_spec(read_robot(ROBOTS / "go1_description/urdf/go1.urdf"))
-    told = "meshes too large to show in the MuJoCo model, left out: trunk.dae"
-    assert built.warnings == (told,)
+    (warning,) = built.warnings
+    assert warning == "meshes too large to show in the MuJoCo model, left out: trunk.dae"
     trunk = built.spec.body("base")
     visible = [geom for geom in trunk.geoms if geom.group == 0]
     assert visible

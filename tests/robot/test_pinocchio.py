@@ -19,11 +19,11 @@ LOADED = [path for path in ALL_URDFS if path.name != UNEXPANDED_XACRO]
 
 
 def random_posture(tree: Tree, rng: np.random.Generator) -> dict[str, float]:
-    """Values within the limits; a whole turn or a tenth of a metre where there are none."""
+    """Values within the limits, or within half a turn or 0.1 m where these are wider."""
     posture = {}
     for name, joint in tree.joints.items():
-        reach = np.pi if joint.kind is JointKind.REVOLUTE else 0.1
-        lower, upper = max(joint.lower, -reach), min(joint.upper, reach)
+        limit = np.pi if joint.kind is JointKind.REVOLUTE else 0.1
+        lower, upper = max(joint.lower, -limit), min(joint.upper, limit)
         posture[name] = rng.uniform(min(lower, upper), max(lower, upper))
     return tree.complete(posture)
 

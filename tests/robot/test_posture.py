@@ -19,11 +19,11 @@ def solo12(name=None, joints=None, tree=None):
 
 
 STANDING = 0.8 * 0.32 + 0.0164
-"""Thighs and shanks of 160 mm, and the balls of the feet, 8 mm beside the shank [m]."""
+"""Standing height of legs with thighs and shanks of 160 mm and round feet [m]."""
 
 
 @pytest.mark.parametrize(
-    ("asked", "joints", "name", "values", "height"),
+    ("requested", "joints", "name", "values", "height"),
     [
         (None, {}, "stand", lambda: stand_of(SOLO12).posture, STANDING),
         ("zero", {}, "zero", dict, 0.32 + 0.0164),
@@ -31,8 +31,8 @@ STANDING = 0.8 * 0.32 + 0.0164
         ("standing", {}, "standing", lambda: tree_of(SOLO12).named_postures["standing"], None),
     ],
 )
-def test_a_posture_is_by_name_and_joint_by_joint(asked, joints, name, values, height):
-    posture, zero = solo12(asked, joints), dict.fromkeys(tree_of(SOLO12).joints, 0.0)
+def test_a_posture_is_by_name_and_joint_by_joint(requested, joints, name, values, height):
+    posture, zero = solo12(requested, joints), dict.fromkeys(tree_of(SOLO12).joints, 0.0)
     assert posture.name == name
     assert posture.values == zero | values()
     if height is not None:
@@ -55,7 +55,7 @@ def test_joints_of_a_partial_posture_rest_within_their_limits():
     assert values["FL_calf_joint"] == tree.joints["FL_calf_joint"].upper < 0.0
 
 
-def test_values_outside_the_limits_are_told():
+def test_values_outside_the_limits_raise_a_warning():
     name = "a1_description/urdf/a1"
     posture = resolve_posture(tree_of(name), "base", legs_of(name), "zero", {})
     (warning,) = posture.warnings
@@ -63,7 +63,7 @@ def test_values_outside_the_limits_are_told():
     assert "FL_calf_joint" in warning
 
 
-def test_a_posture_of_the_file_behind_a_built_in_name_is_told():
+def test_a_posture_of_the_file_with_a_built_in_name_raises_a_warning():
     tree = replace(tree_of(SOLO12), named_postures={"stand": {"FL_KFE": 1.0}})
     (warning,) = solo12("stand", tree=tree).warnings
     assert "'stand'" in warning
@@ -84,7 +84,7 @@ def test_an_unknown_name_lists_the_nearest_first(arguments, wrong, right):
 
 
 @pytest.mark.parametrize("value", [float("nan"), float("inf"), -1e308])
-def test_a_joint_needs_a_value_that_can_be(value):
+def test_impossible_joint_values_are_refused(value):
     with pytest.raises(RobotError, match="FL_HFE"):
         solo12(joints={"FL_HFE": value})
 

@@ -1,4 +1,4 @@
-"""From a file to a robot, and what lies beside it."""
+"""Reading a robot: its file, and the SRDF beside it."""
 
 import hashlib
 import os
@@ -20,25 +20,25 @@ HUMAN = ROBOTS / "human_description/robots/human.urdf"
 
 
 def test_solo12_with_no_option():
-    found = read_robot(SOLO12)
-    assert found.name == "solo"
-    assert found.format is RobotFormat.URDF
-    assert (found.trunk, found.floating_base, found.posture_name) == (
+    solo12 = read_robot(SOLO12)
+    assert solo12.name == "solo"
+    assert solo12.format is RobotFormat.URDF
+    assert (solo12.trunk, solo12.floating_base, solo12.posture_name) == (
         "base_link",
         "base_link",
         "stand",
     )
-    assert found.sha256 == hashlib.sha256(SOLO12.read_bytes()).hexdigest()
-    assert found.mass == pytest.approx(2.50000279)
+    assert solo12.sha256 == hashlib.sha256(SOLO12.read_bytes()).hexdigest()
+    assert solo12.mass == pytest.approx(2.50000279)
     # 1000 N m: a placeholder, of a robot of 2.5 kg.
-    (warning,) = found.warnings
+    (warning,) = solo12.warnings
     assert "efforts over 10 times" in warning
 
 
 def test_another_trunk_is_another_frame_of_the_same_robot():
-    """The legs stay those of the robot; only where it is seen from changes."""
-    whole = ROBOTS / "talos_data/robots/talos_reduced.urdf"
-    pelvis, chest = read_robot(whole), read_robot(whole, trunk="torso_2_link")
+    """Legs, posture and inertia stay the same; only the origin moves."""
+    path = ROBOTS / "talos_data/robots/talos_reduced.urdf"
+    pelvis, chest = read_robot(path), read_robot(path, trunk="torso_2_link")
     assert [leg.name for leg in chest.legs] == [leg.name for leg in pelvis.legs]
     assert dict(chest.posture) == pytest.approx(dict(pelvis.posture), abs=1e-6)
     assert chest.inertia == pytest.approx(pelvis.inertia, rel=1e-5, abs=1e-5)
@@ -54,7 +54,7 @@ def test_an_unknown_trunk_lists_the_nearest_links():
     assert caught.value.hint.startswith("did you mean 'base_link'? available: base_link")
 
 
-def test_sideways_and_upright_conventions_are_told():
+def test_sideways_and_lying_frames_raise_a_warning():
     sideways = read_robot(QUADRUPED, trunk="base_link").warnings
     assert any("knees turn about the x axis" in text for text in sideways)
     lying = next(
@@ -65,7 +65,7 @@ def test_sideways_and_upright_conventions_are_told():
 
 
 @pytest.mark.parametrize("name", one_per_folder(ANATOMY))
-def test_no_warning_is_told_twice_and_few_are_of_the_frame(name):
+def test_warnings_are_unique_and_rarely_about_the_frame(name):
     warnings = read_robot(ROBOTS / f"{name}.urdf").warnings
     assert len(set(warnings)) == len(warnings)
     of_frame = [text for text in warnings if "frame of the trunk" in text]
@@ -94,8 +94,8 @@ def test_the_content_chooses_the_format_and_not_the_name(tmp_path: Path, content
 
 @pytest.mark.slow
 def test_nearly_all_real_robots_find_their_meshes():
-    without = [name for name in ANATOMY if "not found" in str(tree_of(name).warnings)]
-    assert without == ["romeo_description/urdf/romeo_laas_small"]
+    incomplete = [name for name in ANATOMY if "not found" in str(tree_of(name).warnings)]
+    assert incomplete == ["romeo_description/urdf/romeo_laas_small"]
 
 
 def test_reading_a_urdf_imports_nothing_slow():
@@ -103,10 +103,10 @@ def test_reading_a_urdf_imports_nothing_slow():
         "import sys; from ocs_design.robot.reader import load; load(sys.argv[1]);"
         "print(sorted({'mujoco', 'trimesh', 'cvxpy', 'scipy'} & set(sys.modules)))"
     )
-    done = subprocess.run(
+    process = subprocess.run(
         [sys.executable, "-c", code, str(SOLO12)], check=True, capture_output=True, text=True
     )
-    assert done.stdout == "[]\n"
+    assert process.stdout == "[]\n"
 
 
 def srdf(*states: str, name: str = "test") -> bytes:
@@ -128,7 +128,7 @@ def test_states_of_one_name_are_joined_over_their_groups_and_joints_of_several_v
     assert read_group_states(content) == {"home": {"a": 1.0, "b": 2.0}, "up": {"a": 3.0}}
 
 
-def test_what_is_no_srdf_is_refused():
+def test_other_xml_is_refused_as_an_srdf():
     with pytest.raises(RobotError, match="SRDF"):
         read_group_states(b"<html/>")
 
@@ -152,7 +152,7 @@ def test_the_srdf_of_the_same_file_name_goes_first(tmp_path: Path):
     assert find_srdfs(tmp_path, "some", "test") == [tmp_path / "some.srdf"]
 
 
-def test_a_broken_srdf_is_only_warned_of(tmp_path: Path):
+def test_a_broken_srdf_only_raises_a_warning(tmp_path: Path):
     (tmp_path / "some.urdf").write_bytes(TWO_LINKS)
     (tmp_path / "some.srdf").write_bytes(srdf(state("up", "hip", "nan")))
     tree = load(tmp_path / "some.urdf").tree

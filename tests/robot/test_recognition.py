@@ -1,4 +1,4 @@
-"""Trunks and legs of robots that stand in no usual posture at zero, and what is asked about others.
+"""Trunks and legs of robots with unusual zero postures, and questions about ambiguous robots.
 
 The robots are small ones made for this: level, folded and radial legs, a spine, a hopper, wheels on
 legs, legs that share a hip, fingers and arms.
@@ -33,18 +33,18 @@ def read(elements) -> Tree:
 
 
 def read_file(folder, elements, **options):
-    """The robot by the way of a file."""
+    """The robot of a file with these elements."""
     path = folder / "robot.urdf"
     path.write_bytes(robot(*elements))
     return read_robot(path, **options)
 
 
-def found(elements) -> Recognition:
+def recognised(elements) -> Recognition:
     return recognise(read(elements))
 
 
 def feet(recognition: Recognition) -> list[str]:
-    return [each.name for each in recognition.reading.legs]
+    return [leg.name for leg in recognition.reading.legs]
 
 
 ALL_FEET = [f"{name}_foot" for name in CORNERS]
@@ -59,7 +59,7 @@ ZEROS = {
 
 
 def hung(parent="trunk", **hips):
-    """Legs that hang straight down from these places, by their names."""
+    """Legs that hang straight down from these hips, by name."""
     return [
         part
         for name, hip in hips.items()
@@ -83,8 +83,8 @@ ARM = ("upper_arm", "forearm", "hand")
 OUTWARDS = ZEROS["level, knees outwards"]
 
 
-def slides():
-    """Two limbs of two slides each."""
+def sliding_limbs():
+    """Two limbs of two prismatic joints each."""
     for name, y in (("a", 0.1), ("b", -0.1)):
         at = ("trunk", f"{name}_upper", f"{name}_lower")
         yield from (link(at[1], inertial(0.1)), link(at[2], inertial(0.1, xyz="0 0 -0.3")))
@@ -94,7 +94,7 @@ def slides():
 
 
 def hexapod(zero, **scales):
-    """Pairs of legs from front to rear, so many times as long as at `zero`."""
+    """Pairs of legs from front to rear; `scales` multiply the lengths of `ZEROS[zero]`."""
     elements = [TRUNK]
     for (name, scale), x in zip(scales.items(), (0.2, 0.0, -0.2), strict=True):
         parts = [tuple(scale * np.array(part)) for part in ZEROS[zero]]
@@ -142,7 +142,7 @@ def closed_pair(gap):
     return elements
 
 
-def five_bars():
+def five_bar_legs():
     """Four legs of two limbs each, which turn about one hip axis 30 mm apart."""
     elements = [TRUNK]
     for name, (x, y) in CORNERS.items():
@@ -155,17 +155,17 @@ def five_bars():
 
 SIX_FEET = [f"{end}{side}_foot" for end in "fmh" for side in "lr"]
 FOUR_WHEELS = with_wheels(2, **{name: (*at, 0.0) for name, at in CORNERS.items()})
-CLEAR = {
+UNAMBIGUOUS = {
     **{zero: (quadruped(*parts), ALL_FEET) for zero, parts in ZEROS.items()},
     "a second pair on a torso is arms": (
         [TRUNK, *TORSO, *pair(ZEROS["hanging"], 0.3, parent="torso"), *PAIR],
         ["a_foot", "b_foot"],
     ),
-    "slides alone are no legs": ([TRUNK, *slides()], []),
+    "limbs of prismatic joints alone are no legs": ([TRUNK, *sliding_limbs()], []),
     "six, the middle ones longer": (hexapod("hanging", f=1.0, m=1.15, h=1.0), SIX_FEET),
     "six that are level": (hexapod("level, knees outwards", f=1.0, m=1.15, h=1.0), SIX_FEET),
     "wheels on legs": (FOUR_WHEELS, [f"{name}_wheel" for name in CORNERS]),
-    "arms that are named so": ([TRUNK, *pair(OUTWARDS, words=("arm", "forearm", "hand"))], []),
+    "limbs named as arms": ([TRUNK, *pair(OUTWARDS, words=("arm", "forearm", "hand"))], []),
     "fins that hang like legs": (
         [TRUNK, *pair(ZEROS["hanging"], 0.0, 0.1, words=("fin", "fintip", "fin_end"))],
         [],
@@ -175,15 +175,15 @@ CLEAR = {
 }
 
 
-@pytest.mark.parametrize(("elements", "expected"), CLEAR.values(), ids=CLEAR)
-def test_what_is_clear_is_not_asked_about(elements, expected):
-    recognition = found(elements)
+@pytest.mark.parametrize(("elements", "expected"), UNAMBIGUOUS.values(), ids=UNAMBIGUOUS)
+def test_unambiguous_robots_raise_no_question(elements, expected):
+    recognition = recognised(elements)
     assert recognition.sure
     assert recognition.reading.confidence >= SURE
     assert (recognition.reading.trunk, feet(recognition)) == ("trunk", expected)
 
 
-ASKED = {
+AMBIGUOUS = {
     "three legs, in the order of the file": (
         hung(c=(0.2, 0.0, 0.0), a=(-0.1, 0.1, 0.0), b=(-0.1, -0.1, 0.0)),
         ["c_foot", "a_foot", "b_foot"],
@@ -230,7 +230,7 @@ ASKED = {
         "",
     ),
     "legs that share a hip, of which one each is offered": (
-        five_bars()[1:],
+        five_bar_legs()[1:],
         [f"{name}i_foot" for name in CORNERS],
         "share a hip",
     ),
@@ -238,38 +238,37 @@ ASKED = {
 }
 
 
-@pytest.mark.parametrize(("limbs", "likely", "words"), ASKED.values(), ids=ASKED)
-def test_what_may_be_two_things_is_asked_about(limbs, likely, words):
-    recognition = found([TRUNK, *limbs])
+@pytest.mark.parametrize(("limbs", "likely", "words"), AMBIGUOUS.values(), ids=AMBIGUOUS)
+def test_ambiguous_robots_raise_a_question(limbs, likely, words):
+    recognition = recognised([TRUNK, *limbs])
     assert not recognition.sure
-    assert [each.name for each in recognition.likely[0].legs] == likely
+    assert [leg.name for leg in recognition.likely[0].legs] == likely
     assert words in question_about(recognition).message
 
 
 @pytest.mark.parametrize(
     ("elements", "legs", "words"),
     [
-        (five_bars(), [f"{name}i_foot" for name in CORNERS], "the other is locked"),
+        (five_bar_legs(), [f"{name}i_foot" for name in CORNERS], "the other is locked"),
         (closed_pair(0.0), ["a_e", "b_e"], "meet at their ends"),
     ],
 )
-def test_how_closed_chains_are_treated_once_the_legs_are_stated_is_said(
-    tmp_path, elements, legs, words
-):
-    assert any(words in each for each in read_file(tmp_path, elements, legs=legs).warnings)
+def test_closed_chains_of_specified_legs_raise_a_warning(tmp_path, elements, legs, words):
+    warnings = read_file(tmp_path, elements, legs=legs).warnings
+    assert any(words in warning for warning in warnings)
 
 
 def test_wheels_are_feet_of_their_radius():
-    radii = [each.foot_radius for each in found(FOUR_WHEELS).reading.legs]
+    radii = [leg.foot_radius for leg in recognised(FOUR_WHEELS).reading.legs]
     assert radii == pytest.approx([0.06] * 4, abs=1e-6)
 
 
-def test_an_arm_has_no_trunk():
+def test_a_lone_arm_raises_a_question():
     names = ["base", "one", "two", "three", "four"]
     elements = [link(names[0], inertial(1.0))]
     for below, name in pairwise(names):
         elements += [link(name, inertial(1.5, xyz="0 0 0.1")), hinge(name, below, name, "0 0 0.2")]
-    recognition = found(elements)
+    recognition = recognised(elements)
     assert not recognition.sure
     assert recognition.reading.legs == ()
     assert "as an arm is" in question_about(recognition).message
@@ -288,7 +287,7 @@ def test_a_robot_with_level_legs_stands_on_them(tmp_path):
 @given(st.lists(st.text("abcdxyz", min_size=3, max_size=3), min_size=3, max_size=3, unique=True))
 @settings(max_examples=15, deadline=None)
 def test_meaningless_names_change_nothing(words):
-    recognition = found(quadruped(*ZEROS["folded upwards"], words=words))
+    recognition = recognised(quadruped(*ZEROS["folded upwards"], words=words))
     assert recognition.sure
     assert feet(recognition) == [f"{name}_{words[2]}" for name in CORNERS]
 
@@ -308,25 +307,25 @@ def dog():
     return elements
 
 
-def test_a_spine_is_asked_about():
-    recognition = found(dog())
+def test_a_spine_raises_a_question():
+    recognition = recognised(dog())
     assert not recognition.sure
     question = question_about(recognition)
     assert "a spine" in question.message
     best = recognition.likely[0]
-    assert (best.trunk, sorted(each.name for each in best.legs)) == ("chest", sorted(ALL_FEET))
-    whole = {each.trunk for each in recognition.likely if len(each.legs) == 4}
-    assert whole == {"chest", "pelvis"}
+    assert (best.trunk, sorted(leg.name for leg in best.legs)) == ("chest", sorted(ALL_FEET))
+    trunks = {reading.trunk for reading in recognition.likely if len(reading.legs) == 4}
+    assert trunks == {"chest", "pelvis"}
     assert best.options in (question.hint or "")
 
 
 @pytest.mark.parametrize("trunk", ["chest", "pelvis"])
-def test_a_robot_with_a_spine_stands_once_its_trunk_is_stated(tmp_path, trunk):
+def test_a_robot_with_a_spine_stands_once_its_trunk_is_specified(tmp_path, trunk):
     standing = read_file(tmp_path, dog(), trunk=trunk, legs=ALL_FEET)
     assert standing.trunk == trunk
     assert standing.standing_height == pytest.approx(0.32, abs=1e-4)
     assert [standing.posture[name] for name in ("spine_1", "spine_2")] == [0.0, 0.0]
-    assert {each.name: standing.tree.bodies[each.base].name for each in standing.legs} == {
+    assert {leg.name: standing.tree.bodies[leg.base].name for leg in standing.legs} == {
         "fl_foot": "chest",
         "fr_foot": "chest",
         "hl_foot": "pelvis",
@@ -335,9 +334,9 @@ def test_a_robot_with_a_spine_stands_once_its_trunk_is_stated(tmp_path, trunk):
     assert any("a spine" in warning for warning in standing.warnings)
 
 
-def test_stating_the_legs_alone_leaves_the_end_of_a_spine_open():
+def test_specified_legs_alone_leave_the_end_of_a_spine_open():
     recognition = recognise(read(dog()), legs=ALL_FEET)
-    assert {each.trunk for each in recognition.likely} == {"chest", "pelvis"}
+    assert {reading.trunk for reading in recognition.likely} == {"chest", "pelvis"}
 
 
 HOPPER = """<mujoco model="hopper"><compiler angle="degree"/><worldbody>
@@ -361,11 +360,11 @@ def test_the_trunk_of_a_hopper_is_not_its_heavy_foot(tmp_path):
     heaviest = max(hopper.tree.bodies, key=lambda body: body.mass_properties.mass)
     assert heaviest.name == "foot"
     assert hopper.trunk == "torso"
-    assert [each.name for each in hopper.legs] == ["foot"]
+    assert [leg.name for leg in hopper.legs] == ["foot"]
     assert hopper.recognition.sure
 
 
-def test_closed_chains_of_a_model_are_said_to_be_cut_open(tmp_path):
+def test_closed_chains_of_a_model_raise_a_warning(tmp_path):
     loop = '</worldbody><equality><connect body1="foot" body2="torso" anchor="0 0 0"/></equality>'
     path = tmp_path / "loop.xml"
     path.write_text(HOPPER.replace("</worldbody>", loop))
@@ -380,16 +379,16 @@ def test_closed_chains_of_a_model_are_said_to_be_cut_open(tmp_path):
         (["fl_foot", "nowhere"], "no link 'nowhere'"),
     ],
 )
-def test_legs_that_cannot_be(tmp_path, legs, message):
+def test_impossible_legs_are_refused(tmp_path, legs, message):
     with pytest.raises(RobotError, match=message):
         read_file(tmp_path, quadruped(*ZEROS["hanging"]), legs=legs)
 
 
-def test_stated_legs_are_those_that_would_be_found():
+def test_specified_legs_are_those_that_are_recognised():
     tree = read(quadruped(*ZEROS["bent"]))
-    unaided, stated = recognise(tree), recognise(tree, legs=ALL_FEET)
-    assert [each.joints for each in stated.reading.legs] == [
-        each.joints for each in unaided.reading.legs
+    unaided, specified = recognise(tree), recognise(tree, legs=ALL_FEET)
+    assert [leg.joints for leg in specified.reading.legs] == [
+        leg.joints for leg in unaided.reading.legs
     ]
     # Any link of the foot's body names it, and a pair of legs is a biped.
     biped = recognise(tree, legs=["fl_shank", "fr_foot"])
@@ -397,7 +396,7 @@ def test_stated_legs_are_those_that_would_be_found():
     assert biped.stated == {"legs"}
 
 
-def test_no_legs_can_be_stated(tmp_path):
+def test_no_legs_can_be_specified(tmp_path):
     bare = read_file(tmp_path, quadruped(*ZEROS["hanging"]), legs=[])
     assert (bare.legs, bare.posture_name, bare.standing_height) == ((), "zero", None)
 
@@ -407,7 +406,7 @@ def test_no_legs_can_be_stated(tmp_path):
     [("", False), ('<joint axis="0 0 1"/>', False), ("<freejoint/>", True)],
     ids=["bolted", "turns", "flies"],
 )
-def test_a_robot_without_legs_that_is_fixed_to_the_world_is_asked_about(tmp_path, joints, sure):
+def test_a_fixed_robot_without_legs_raises_a_question(tmp_path, joints, sure):
     path = tmp_path / "base.xml"
     path.write_text(
         f'<mujoco><worldbody><body name="base">{joints}<geom size=".2"/><body pos="0 0 .2">'
@@ -418,21 +417,21 @@ def test_a_robot_without_legs_that_is_fixed_to_the_world_is_asked_about(tmp_path
     assert recognition.reading.trunk == "base"
 
 
-def test_a_heaviest_link_that_is_not_the_root_is_asked_about():
+def test_a_heaviest_link_that_is_not_the_root_raises_a_question():
     elements = [
         link("wrist", inertial(0.1)),
         link("tip", inertial(0.6)),
         link("thumb", inertial(0.1)),
     ]
     joints = [hinge("a", "wrist", "tip", "0.1 0 0"), hinge("b", "wrist", "thumb", "0 0.1 0")]
-    recognition = found([*elements, *joints])
-    assert [each.options for each in recognition.likely] == [
+    recognition = recognised([*elements, *joints])
+    assert [reading.options for reading in recognition.likely] == [
         "--trunk tip --legs none",
         "--trunk wrist --legs none",
     ]
 
 
-def test_limbs_that_a_model_ties_together_at_their_ends_are_asked_about(tmp_path):
+def test_limbs_that_a_model_ties_together_raise_a_question(tmp_path):
     def limb(name, x):
         return (
             f'<body name="{name}1" pos="{x} 0 0"><joint axis="0 1 0"/>'

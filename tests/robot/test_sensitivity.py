@@ -1,4 +1,4 @@
-"""How Solo12's inertia moves with its posture, against the figures of the theory."""
+"""How Solo12's inertia changes with its posture, against the figures of the theory."""
 
 from dataclasses import replace
 
@@ -16,37 +16,39 @@ def rows():
     return posture_sensitivity(read_robot(SOLO12))
 
 
-def ratio(weighed):
-    return weighed.inertia[0, 0] / weighed.inertia[1, 1]
+def roll_to_pitch(mass_properties):
+    return mass_properties.inertia[0, 0] / mass_properties.inertia[1, 1]
 
 
-def test_the_ratio_spans_what_the_theory_says(rows):
-    """Of alpha* (docs/theory.md): it rises with abduction; 40 degrees belong to 0.75 to 1 rad."""
-    spread = [ratio(rows[f"legs spread by {angle} rad"]) for angle in ("0.25", "0.5", "0.75", "1")]
-    assert (np.diff(spread) > 0.0).all()
-    assert spread[2] < np.tan(np.radians(40.0)) < spread[3]
-    assert min(map(ratio, rows.values())) > 0.44
-    assert max(map(ratio, rows.values())) < 0.89
+def test_the_ratio_spans_the_range_of_the_theory(rows):
+    """tan alpha* (docs/theory.md) rises with abduction; 40 degrees belong to 0.75 to 1 rad."""
+    ratios = [
+        roll_to_pitch(rows[f"legs spread by {angle} rad"]) for angle in ("0.25", "0.5", "0.75", "1")
+    ]
+    assert (np.diff(ratios) > 0.0).all()
+    assert ratios[2] < np.tan(np.radians(40.0)) < ratios[3]
+    assert min(map(roll_to_pitch, rows.values())) > 0.44
+    assert max(map(roll_to_pitch, rows.values())) < 0.89
 
 
-def test_lower_stands_weigh_less_about_every_axis(rows):
+def test_lower_stands_have_less_inertia(rows):
     traces = [np.trace(rows[f"stand at {share}% of the leg"].inertia) for share in (60, 70, 80, 90)]
     assert (np.diff(traces) > 0.0).all()
 
 
-def test_named_postures_are_those_that_can_be_asked_for():
-    """A1's knees cannot be straight: what does not name them leaves them at their limit."""
+def test_named_postures_are_those_of_the_option():
+    """A1's knees cannot be straight: a posture that does not name them leaves them at the limit."""
     robot = read_robot(ROBOTS / "a1_description/urdf/a1.urdf")
     named = {"sit": {"FL_thigh_joint": 1.0}, "zero": {"FL_thigh_joint": 0.5}}
     robot = replace(robot, tree=replace(robot.tree, named_postures=named))
     rows = posture_sensitivity(robot)
-    asked = {
+    postures = {
         name: resolve_posture(robot.tree, robot.trunk, robot.legs, name, {}).values
         for name in named
     }
-    assert asked["sit"]["FR_calf_joint"] < -0.9
-    assert not any(asked["zero"].values())
-    for name, values in asked.items():
+    assert postures["sit"]["FR_calf_joint"] < -0.9
+    assert not any(postures["zero"].values())
+    for name, values in postures.items():
         expected = robot.tree.locked_mass_properties(values, robot.trunk)
         np.testing.assert_allclose(rows[name].inertia, expected.inertia, rtol=1e-12)
         np.testing.assert_allclose(rows[name].com, expected.com, rtol=1e-12, atol=1e-15)

@@ -17,11 +17,11 @@ from ocs_design.robot.source import read_source
 def test_a_file_is_read_with_its_folder_and_the_hash_of_its_bytes(tmp_path: Path, pack):
     path, packed = tmp_path / "robot.urdf", pack(TWO_LINKS)
     path.write_bytes(packed)
-    for asked in (path, str(path)):
-        read = read_source(asked)
-        assert read.content == TWO_LINKS
-        assert (read.folder, read.path_text) == (tmp_path, str(path))
-        assert read.sha256 == hashlib.sha256(packed).hexdigest()
+    for argument in (path, str(path)):
+        loaded = read_source(argument)
+        assert loaded.content == TWO_LINKS
+        assert (loaded.folder, loaded.path_text) == (tmp_path, str(path))
+        assert loaded.sha256 == hashlib.sha256(packed).hexdigest()
 
 
 class StandardInput(io.TextIOWrapper):
@@ -41,43 +41,47 @@ def test_standard_input_is_read(monkeypatch, pack):
     assert read.folder is None
 
 
-def test_a_terminal_is_not_waited_for(monkeypatch):
+def test_a_terminal_is_refused(monkeypatch):
     monkeypatch.setattr(sys, "stdin", StandardInput(b"", terminal=True))
     with pytest.raises(RobotError, match="standard input"):
         read_source("-")
 
 
 @pytest.mark.parametrize(
-    ("asked", "says", "hint"),
+    ("name", "message", "hint"),
     [
         ("sole12.urdf", "does not exist", "solo12.urdf"),
         ("gone/solo12.urdf", "does not exist", "gone"),
         ("", "is a folder", "solo12.urdf"),
     ],
 )
-def test_what_is_no_file_suggests_another(tmp_path: Path, asked, says, hint):
+def test_a_wrong_path_suggests_another(tmp_path: Path, name, message, hint):
     (tmp_path / "solo12.urdf").write_bytes(TWO_LINKS)
-    with pytest.raises(RobotError, match=says) as caught:
-        read_source(tmp_path / asked)
+    with pytest.raises(RobotError, match=message) as caught:
+        read_source(tmp_path / name)
     assert hint in caught.value.hint
 
 
 @pytest.mark.parametrize(
-    ("files", "named"),
+    ("files", "suggested"),
     [
         (("package.xml", "launch/view.launch.xml", "robots/b.xacro", "urdf/a.urdf"), "urdf/a.urdf"),
         (("package.xml", "urdf/a.urdf", "urdf/arm/hand.urdf", "z.xml"), "z.xml"),
         (("package.xml", ".git/a.urdf", "src/deep/a.urdf"), ""),
     ],
 )
-def test_the_robot_of_a_package_is_suggested(tmp_path: Path, files, named):
+def test_the_robot_of_a_package_is_suggested(tmp_path: Path, files, suggested):
     for file in files:
         (tmp_path / file).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / file).write_bytes(TWO_LINKS)
     with pytest.raises(RobotError, match="is a folder") as caught:
         read_source(tmp_path)
-    told = f"give a file, such as {tmp_path / named}" if named else "give the URDF or MJCF file"
-    assert caught.value.hint.startswith(told)
+    hint = (
+        f"give a file, such as {tmp_path / suggested}"
+        if suggested
+        else "give the URDF or MJCF file"
+    )
+    assert caught.value.hint.startswith(hint)
 
 
 @pytest.mark.skipif(os.geteuid() == 0, reason="root may read every file")

@@ -1,4 +1,4 @@
-"""The standing posture and feet that are lifted, judged by Pinocchio and the whole tree."""
+"""The standing posture and lifted feet, checked by Pinocchio and the whole tree."""
 
 import numpy as np
 import pinocchio as pin
@@ -12,7 +12,8 @@ from ocs_design.robot.reader import read_robot
 from ocs_design.robot.stance import SHARE_OF_LEG, lifted, stand
 
 SOLO12 = "solo_description/robots/solo12"
-# Ankles that cannot bend so far: 30 degrees in Romeo, not backwards at all in the simple humanoids.
+# Shares of the leg where ankles cannot bend enough: Romeo's by 30 degrees, those of the simple
+# humanoids not backwards at all.
 STRAIGHTER = {
     "icub_description/robots/icub": 0.85,
     "icub_description/robots/icub_reduced": 0.85,
@@ -24,7 +25,7 @@ STRAIGHTER = {
 }
 HUMAN = "human_description/robots/human"
 WHEELED = "centauro_description/urdf/centauro"
-# Stated, for asking each robot would read them all before the first test.
+# Listed here, since reading every robot would delay the first test.
 BARE_FEET = [
     name for name in LEGGED if name != WHEELED and (ANATOMY[name][1] == 4 or "bolt" in name)
 ]
@@ -33,13 +34,13 @@ SOLED = [name for name in LEGGED if name not in BARE_FEET and name != WHEELED]
 
 def standing(name, share=SHARE_OF_LEG):
     tree, legs = tree_of(name), legs_of(name)
-    found = stand_of(name) if share == SHARE_OF_LEG else stand(tree, ANATOMY[name][0], legs, share)
-    return tree, legs, found
+    stance = stand_of(name) if share == SHARE_OF_LEG else stand(tree, ANATOMY[name][0], legs, share)
+    return tree, legs, stance
 
 
-def height(name, found):
+def height(name, stance):
     """Height of the trunk frame's origin over the lowest sole [m]."""
-    return max(sole_depths(tree_of(name), ANATOMY[name][0], legs_of(name), found.posture))
+    return max(sole_depths(tree_of(name), ANATOMY[name][0], legs_of(name), stance.posture))
 
 
 def up_of(name):
@@ -63,25 +64,25 @@ def soles(name, posture, tree, legs, up):
 
 
 @pytest.mark.parametrize("name", robot_parameters(LEGGED))
-def test_all_feet_are_in_place_on_one_plane_below_the_trunk_within_the_limits(name):
-    tree, legs, found = standing(name)
+def test_all_feet_stand_on_one_plane_within_the_joint_limits(name):
+    tree, legs, stance = standing(name)
     assert (len(legs[0].joints) < 5) == (name in BARE_FEET)
     up = up_of(name)
-    heights = [point @ up for point, _ in soles(name, found.posture, tree, legs, up)]
-    assert heights == pytest.approx([-height(name, found)] * len(legs), abs=1e-3)
+    heights = [point @ up for point, _ in soles(name, stance.posture, tree, legs, up)]
+    assert heights == pytest.approx([-height(name, stance)] * len(legs), abs=1e-3)
     for joint in tree.joints.values():
-        assert joint.lower - 1e-9 <= found.posture[joint.name] <= joint.upper + 1e-9
-    assert found.share == STRAIGHTER.get(name, SHARE_OF_LEG)
-    assert len(found.warnings) == (1 if name in STRAIGHTER else 0)
+        assert joint.lower - 1e-9 <= stance.posture[joint.name] <= joint.upper + 1e-9
+    assert stance.share == STRAIGHTER.get(name, SHARE_OF_LEG)
+    assert len(stance.warnings) == (1 if name in STRAIGHTER else 0)
 
 
 @pytest.mark.parametrize("name", BARE_FEET)
 def test_bare_feet_are_below_the_hinges_that_swing_them(name):
     """The hip is the last but one joint of these legs; along its axis the foot may be anywhere."""
-    tree, legs, found = standing(name)
+    tree, legs, stance = standing(name)
     up = up_of(name)
-    model, data = pinocchio_frames(name, found.posture)
-    for leg, (sole, _) in zip(legs, soles(name, found.posture, tree, legs, up), strict=True):
+    model, data = pinocchio_frames(name, stance.posture)
+    for leg, (sole, _) in zip(legs, soles(name, stance.posture, tree, legs, up), strict=True):
         index = model.getJointId(leg.joints[-2])
         swing = np.cross(data.oMi[index].rotation @ tree.joints[leg.joints[-2]].axis, up)
         assert swing @ (sole - data.oMi[index].translation) == pytest.approx(0.0, abs=1e-3)
@@ -89,22 +90,22 @@ def test_bare_feet_are_below_the_hinges_that_swing_them(name):
 
 @pytest.mark.parametrize("name", robot_parameters(SOLED))
 def test_soles_stay_as_level_as_they_are_at_zero(name):
-    tree, legs, found = standing(name)
+    tree, legs, stance = standing(name)
     up = up_of(name)
     zero = dict.fromkeys(tree.joints, 0.0)
-    stood, flat = (soles(name, p, tree, legs, up) for p in (found.posture, zero))
+    stood, flat = (soles(name, p, tree, legs, up) for p in (stance.posture, zero))
     for (_, rotation), (_, level) in zip(stood, flat, strict=True):
         assert rotation @ level.T @ up == pytest.approx(up, abs=1e-4)
 
 
 def test_solo12_bends_its_legs_as_two_equal_bars_do():
-    _, _, found = standing(SOLO12)
+    _, _, stance = standing(SOLO12)
     angle = np.arccos(0.8)
     for leg, side in (("FL", 1.0), ("FR", 1.0), ("HL", -1.0), ("HR", -1.0)):
-        assert found.posture[f"{leg}_HAA"] == pytest.approx(0.0, abs=1e-6)
-        assert found.posture[f"{leg}_HFE"] == pytest.approx(side * angle, abs=1e-4)
-        assert found.posture[f"{leg}_KFE"] == pytest.approx(-2.0 * side * angle, abs=1e-4)
-    assert height(SOLO12, found) == pytest.approx(0.8 * 0.32 + 0.0164, abs=1e-4)
+        assert stance.posture[f"{leg}_HAA"] == pytest.approx(0.0, abs=1e-6)
+        assert stance.posture[f"{leg}_HFE"] == pytest.approx(side * angle, abs=1e-4)
+        assert stance.posture[f"{leg}_KFE"] == pytest.approx(-2.0 * side * angle, abs=1e-4)
+    assert height(SOLO12, stance) == pytest.approx(0.8 * 0.32 + 0.0164, abs=1e-4)
 
 
 @pytest.mark.parametrize(
@@ -120,8 +121,8 @@ def test_solo12_bends_its_legs_as_two_equal_bars_do():
     ],
 )
 def test_knees_point_to_the_usual_side(name, knees):
-    tree, legs, found = standing(name)
-    model, data = pinocchio_frames(name, found.posture)
+    tree, legs, stance = standing(name)
+    model, data = pinocchio_frames(name, stance.posture)
     feet = {tree.bodies[leg.body].name: leg for leg in legs}
     for knee, side in knees.items():
         index = tree.body_of_link[knee]
@@ -141,8 +142,8 @@ def test_a_robot_without_legs_does_not_stand():
     assert stand(tree_of("ur_description/urdf/ur5_robot"), "world", ()) is None
 
 
-def test_what_cannot_be_reached_is_said():
-    """A stance lower than the knees can bend: the nearest is taken, with a warning."""
+def test_an_unreachable_stance_raises_a_warning():
+    """For a stance lower than the knees can bend the nearest one is taken."""
     tree = tree_of("romeo_description/urdf/romeo")
     legs = legs_of("romeo_description/urdf/romeo")
     low = stand(tree, "base_link", legs, 0.3)
@@ -169,9 +170,9 @@ def posture_of(robot, leg):
 
 
 def test_a_foot_goes_straight_up_and_down_in_the_whole_robot(robot, leg):
-    found = lifted(leg.chain, leg.leg.foot, leg.leg.length, posture_of(robot, leg), HEIGHTS)
+    joint_values = lifted(leg.chain, leg.leg.foot, leg.leg.length, posture_of(robot, leg), HEIGHTS)
     feet = []
-    for values in found:
+    for values in joint_values:
         posture = {**robot.posture, **dict(zip(leg.chain.names, values, strict=True))}
         shank = robot.tree.placements_from(robot.trunk, posture)[leg.leg.body]
         feet.append(shank.point(leg.leg.foot))
@@ -180,8 +181,8 @@ def test_a_foot_goes_straight_up_and_down_in_the_whole_robot(robot, leg):
     np.testing.assert_allclose(moved[:, 2], HEIGHTS, atol=1e-9)
 
 
-def test_what_is_out_of_reach_stays_within_the_limits(robot, leg):
-    far = np.array([-2.0 * leg.leg.length])
-    (values,) = lifted(leg.chain, leg.leg.foot, leg.leg.length, posture_of(robot, leg), far)
+def test_a_foot_out_of_reach_stays_within_the_joint_limits(robot, leg):
+    height = np.array([-2.0 * leg.leg.length])
+    (values,) = lifted(leg.chain, leg.leg.foot, leg.leg.length, posture_of(robot, leg), height)
     assert np.all((values >= leg.chain.lower) & (values <= leg.chain.upper))
     assert np.isfinite(values).all()

@@ -1,4 +1,4 @@
-"""Heights and reach of shapes: of primitives in closed form, of meshes as of their triangles."""
+"""Heights and extents of shapes: closed forms of primitives, triangles of meshes."""
 
 from dataclasses import replace
 
@@ -23,23 +23,23 @@ SQUARE = np.array(
 
 
 def shape(kind, size, rotation=None):
-    turn = np.eye(3) if rotation is None else rotation
-    return Shape(kind, size, np.zeros(3), turn, "trunk", collides=True)
+    rotation = np.eye(3) if rotation is None else rotation
+    return Shape(kind, size, np.zeros(3), rotation, "trunk", collides=True)
 
 
-def spread(limit, count=41):
+def grid(limit, count=41):
     x, y = np.meshgrid(*2 * [np.linspace(-limit, limit, count)])
     return x.ravel(), y.ravel()
 
 
 def test_a_slope_is_as_high_as_its_plane():
     surface = surface_of(SQUARE)
-    x, y = (each.ravel() for each in np.meshgrid(*2 * [np.arange(0.005, 0.1, 0.01)]))
+    x, y = (axis.ravel() for axis in np.meshgrid(*2 * [np.arange(0.005, 0.1, 0.01)]))
     np.testing.assert_allclose(surface.height(x, y), 1.0 + y / 0.1, atol=10.0 * STEP)
     assert (surface.height(x + 0.2, y) == -np.inf).all()
 
 
-def test_of_two_the_higher_counts():
+def test_the_higher_of_two_surfaces_counts():
     low = SQUARE - [0.0, 0.0, 5.0]
     both, alone = surface_of(np.concatenate([SQUARE, low])), surface_of(SQUARE)
     np.testing.assert_array_equal(both.heights, alone.heights)
@@ -56,15 +56,15 @@ def test_of_two_the_higher_counts():
 )
 def test_primitives(kind, size, height):
     surface = surface_of(triangles_of(shape(kind, size)))
-    x, y = spread(0.06)
+    x, y = grid(0.06)
     np.testing.assert_allclose(surface.height(x, y), height(x, y), atol=1.5e-3)
 
 
-def test_a_cylinder_that_lies():
+def test_a_lying_cylinder():
     """z = sqrt(r^2 - y^2) over its whole length."""
     across = np.array([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]])
     surface = surface_of(triangles_of(shape(ShapeKind.CYLINDER, (0.1, 0.2), across)))
-    x, y = spread(0.08)
+    x, y = grid(0.08)
     np.testing.assert_allclose(surface.height(2.0 * x, y), np.sqrt(0.01 - y**2), atol=1.5e-3)
 
 
@@ -92,7 +92,7 @@ LENGTH = st.floats(0.05, 1.0)
 
 
 def solid(kind, measures):
-    """The same solid by trimesh, finely meshed."""
+    """Sizes of a solid, and the same solid by trimesh, finely meshed."""
     a, b, c = measures
     if kind is ShapeKind.BOX:
         return (a, b, c), trimesh.creation.box(extents=(2 * a, 2 * b, 2 * c))
@@ -114,11 +114,11 @@ def solid(kind, measures):
 )
 def test_extent_is_that_of_the_farthest_point(kind, measures, angles, towards):
     sizes, mesh = solid(kind, measures)
-    turn, place = rotation_from_rpy(*angles), np.array([0.3, -0.2, 0.1])
+    rotation, position = rotation_from_rpy(*angles), np.array([0.3, -0.2, 0.1])
     direction = np.array(towards) / np.linalg.norm(towards)
-    shape = Shape(kind, sizes, place, turn, "link", collides=True)
+    shape = Shape(kind, sizes, position, rotation, "link", collides=True)
     points = mesh.vertices - (mesh.bounds.mean(axis=0) if kind is ShapeKind.CAPSULE else 0.0)
-    farthest = ((points @ turn.T + place) @ direction).max()
+    farthest = ((points @ rotation.T + position) @ direction).max()
     assert extent(shape, direction) == pytest.approx(farthest, abs=2e-3 * max(sizes))
 
 

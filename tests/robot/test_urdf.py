@@ -1,4 +1,4 @@
-"""URDF as it is read: joints, shapes, colours, lumps, encodings, and what is warned of."""
+"""Reading URDF: joints, shapes, colours, merged links, encodings and warnings."""
 
 from pathlib import Path
 
@@ -102,7 +102,7 @@ def test_what_floats_under_a_massless_root_is_the_base(kind):
     assert tree.warnings == ()
 
 
-TURNED = (
+ROTATED = (
     link(
         "trunk",
         inertial(2.0, "0.1 0.2 0.25").replace('"0 0 0"', '"0.1 0 0" quat_xyzw="0.2 0.4 0.1 -0.8"'),
@@ -113,8 +113,8 @@ TURNED = (
 
 
 @pytest.mark.parametrize("version", ["1.0", "1.1"])
-def test_quaternions_of_origins_turn_as_in_pinocchio(version):
-    content = robot(*TURNED).replace(b"<robot", f'<robot version="{version}"'.encode())
+def test_quaternions_of_origins_rotate_as_in_pinocchio(version):
+    content = robot(*ROTATED).replace(b"<robot", f'<robot version="{version}"'.encode())
     tree, model = read(content), pin.buildModelFromXML(content.decode(), pin.JointModelFreeFlyer())
     assert_same_mass_properties(
         tree.locked_mass_properties({}, "trunk"),
@@ -123,15 +123,15 @@ def test_quaternions_of_origins_turn_as_in_pinocchio(version):
     assert bool(tree.warnings) == (version == "1.0")
 
 
-@pytest.mark.parametrize("turn", ['quat_xyzw="0 0 0 1" rpy="0 0 0"', 'quat_xyzw="0 0 0 0"'])
-def test_a_turn_stated_twice_or_not_at_all_is_refused(turn):
-    content = robot(link("trunk", inertial().replace("<origin", f"<origin {turn}")))
+@pytest.mark.parametrize("attributes", ['quat_xyzw="0 0 0 1" rpy="0 0 0"', 'quat_xyzw="0 0 0 0"'])
+def test_a_rotation_given_twice_or_without_axis_is_refused(attributes):
+    content = robot(link("trunk", inertial().replace("<origin", f"<origin {attributes}")))
     with pytest.raises(RobotError, match="quat_xyzw"):
         read(content.replace(b"<robot", b'<robot version="1.1"'))
 
 
 @pytest.mark.parametrize(
-    ("limit", "kind", "read", "told"),
+    ("limit", "kind", "expected", "warning"),
     [
         ('<limit lower="1" upper="-1"/>', "revolute", (-INF, INF, INF, INF), "hip"),
         (
@@ -150,10 +150,10 @@ def test_a_turn_stated_twice_or_not_at_all_is_refused(turn):
         ("", "continuous", (-INF, INF, INF, INF), ""),
     ],
 )
-def test_limits_that_are_none_are_not_read_and_what_is_odd_of_them_is_told(limit, kind, read, told):
+def test_void_limits_are_not_read_and_odd_ones_raise_a_warning(limit, kind, expected, warning):
     hip, tree = joint_with(limit, kind=kind)
-    assert (hip.lower, hip.upper, hip.effort, hip.velocity) == read
-    assert [told in each for each in tree.warnings] == [True] * bool(told)
+    assert (hip.lower, hip.upper, hip.effort, hip.velocity) == expected
+    assert [warning in text for text in tree.warnings] == [True] * bool(warning)
 
 
 GEOMETRIES = {
@@ -211,12 +211,12 @@ SHELL = '<visual><geometry><sphere radius="1"/></geometry></visual>'
     ],
     ids=["a shape without inertial", "a moving end without mass", "an impossible body"],
 )
-def test_what_can_hardly_be_meant_is_warned_of(parts, words):
+def test_implausible_links_raise_a_warning(parts, words):
     (warning,) = read(robot(link("trunk", inertial(5.0, "1 1 1")), *parts)).warnings
     assert all(word in warning for word in words)
 
 
-def test_an_impossible_link_in_a_possible_lump_is_not():
+def test_an_impossible_link_within_a_plausible_body_raises_none():
     content = robot(
         link("trunk", inertial(5.0, "1 1 1")),
         link("dummy", inertial(0.001, "0 0 0.001")),
@@ -241,7 +241,7 @@ LATIN = TWO_LINKS.replace(b'"leg"', '"J\xf6rg"'.encode("latin-1"))
 
 
 @pytest.mark.parametrize(
-    ("content", "told"),
+    ("content", "warned"),
     [
         (LATIN, True),
         (b'<?xml version="1.0"?>' + LATIN, True),
@@ -252,10 +252,10 @@ LATIN = TWO_LINKS.replace(b'"leg"', '"J\xf6rg"'.encode("latin-1"))
     ],
     ids=["bare", "undeclared", "wrong", "declared Latin-1", "byte order mark", "UTF-16"],
 )
-def test_latin_1_is_read_with_a_warning_where_it_is_not_declared(content, told):
+def test_latin_1_is_read_with_a_warning_where_it_is_not_declared(content, warned):
     tree = read(content)
     assert "J\xf6rg" in tree.body_of_link
-    assert ["Windows-1252" in warning for warning in tree.warnings] == [True] * told
+    assert ["Windows-1252" in warning for warning in tree.warnings] == [True] * warned
 
 
 def test_a_default_namespace_does_not_matter():
@@ -264,7 +264,7 @@ def test_a_default_namespace_does_not_matter():
 
 
 @pytest.mark.parametrize("above", [b"\n\n", b"<!-- a licence -->\n", b"<!-- a -->\n<!-- b -->"])
-def test_a_declaration_below_blank_lines_or_comments_is_overlooked_with_a_warning(above):
+def test_a_declaration_that_is_not_first_is_ignored_with_a_warning(above):
     declared = b'<?xml version="1.0"?>\n'
     assert read(declared + TWO_LINKS).warnings == read(TWO_LINKS).warnings
     late = read(above + declared + TWO_LINKS)

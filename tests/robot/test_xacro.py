@@ -1,4 +1,4 @@
-"""Xacro files: expanded, or told why not; none may run code, read, write or never end."""
+"""Xacro files are expanded or refused with a reason; none may run code, read, write or hang."""
 
 import sys
 from pathlib import Path
@@ -44,7 +44,7 @@ def test_a_xacro_is_expanded(tmp_path: Path, include: str):
 
 
 @pytest.mark.parametrize("include", ["gone.xacro", "$(find nowhere)/trunk.xacro"])
-def test_what_cannot_be_expanded_says_what_is_missing(tmp_path: Path, include: str):
+def test_an_unexpandable_xacro_names_what_is_missing(tmp_path: Path, include: str):
     pytest.importorskip("xacro", reason="the extra [xacro] is not installed")
     with pytest.raises(RobotError, match=r"gone\.xacro|nowhere") as caught:
         load(write(tmp_path, include))
@@ -52,7 +52,9 @@ def test_what_cannot_be_expanded_says_what_is_missing(tmp_path: Path, include: s
 
 
 @pytest.mark.parametrize("declared", [True, False])
-def test_without_xacro_the_command_that_installs_it_is_told(tmp_path: Path, monkeypatch, declared):
+def test_without_xacro_the_hint_is_the_command_that_installs_it(
+    tmp_path: Path, monkeypatch, declared
+):
     monkeypatch.setitem(sys.modules, "xacro", None)
     path = write(tmp_path, "trunk.xacro")
     if not declared:
@@ -63,7 +65,7 @@ def test_without_xacro_the_command_that_installs_it_is_told(tmp_path: Path, monk
     assert "pip install 'ocs-design[xacro]'" in caught.value.hint
 
 
-def test_an_undeclared_prefix_is_told_as_xacro(tmp_path: Path):
+def test_an_undeclared_prefix_is_recognised_as_xacro(tmp_path: Path):
     path = tmp_path / "robot.urdf"
     path.write_text('<robot name="r"><xacro:trunk/></robot>')
     with pytest.raises(RobotError, match="xacro"):
@@ -104,12 +106,12 @@ def test_an_expression_that_reaches_into_python_is_refused(tmp_path: Path, expre
         check_expression(expression)
 
 
-def test_functions_that_lead_there_are_not_given(tmp_path: Path):
+def test_functions_that_reach_into_python_are_not_available(tmp_path: Path):
     with pytest.raises(RobotError, match="vars"):
         link_named("${python.vars(python.dict)}", tmp_path)
 
 
-def test_what_robots_need_is_evaluated(tmp_path: Path):
+def test_expressions_of_usual_robots_are_evaluated(tmp_path: Path):
     (tmp_path / "robot").mkdir()
     (tmp_path / "robot" / "sizes.yaml").write_text("leg: {length: 0.25}")
     expression = "${xacro.load_yaml('sizes.yaml')['leg']['length'] * a}_${max(map(int, '123'))}"
@@ -148,7 +150,7 @@ def test_variables_that_may_be_secret_are_not_read(name):
         check_variable(name)
 
 
-def test_other_variables_are(tmp_path: Path, monkeypatch):
+def test_other_variables_are_read(tmp_path: Path, monkeypatch):
     monkeypatch.setenv("ROBOT_SIDE", "left")
     monkeypatch.setenv("ROBOT_TOKEN", "s3cret")
     assert link_named("$(env ROBOT_SIDE)_$(optenv ROBOT_COLOR red)", tmp_path) == "left_red"

@@ -1,4 +1,4 @@
-"""Wheels that are braked while the robot stands."""
+"""Wheels are braked while the robot stands."""
 
 import numpy as np
 import pytest
@@ -14,7 +14,7 @@ from ocs_design.simulation.world_builder import Options, WorldBuilder
 
 @pytest.fixture(scope="module")
 def landed(solo12):
-    """The push leaves momentum in the wheels; the same without and with braking."""
+    """A disturbed jump, after which the wheels have momentum, without and with braking."""
     jump = default_maneuvers(solo12)[0]
     worlds = [
         WorldBuilder(solo12, paper_device(), Options(desaturate=brake)).flight(jump, Wheels.ACTIVE)
@@ -23,14 +23,14 @@ def landed(solo12):
     return simulate(worlds), worlds
 
 
-def test_about_a_pivot_its_limit_is_none_at_all_and_not_below_nothing(solo12):
-    """Nothing stands there; written into C it would be the limit of all maneuvers."""
+def test_about_a_pivot_the_brake_torque_is_zero(solo12):
+    """The robot does not stand on a pivot; in C the limit would apply to all maneuvers."""
     tilted = Balance(name="tilted", pivot=(0.0, 0.0, -0.3), roll=0.03, duration=1.0)
     builder = WorldBuilder(solo12, paper_device(), Options(desaturate=True))
     assert builder.flight(tilted, Wheels.ACTIVE).desaturation.torque_max == 0.0
 
 
-def test_nothing_changes_before_the_robot_has_stood_for_a_while(landed):
+def test_braking_starts_after_the_settling_time(landed):
     recording, _ = landed
     touchdown = recording.time[recording.contact[:, 0].argmax()]
     before = recording.time < touchdown + SETTLING

@@ -12,7 +12,7 @@ from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.world import World
 from ocs_design.simulation.world_builder import WorldBuilder
 
-SOME = [
+SELECTED = [
     SOLO12,
     ROBOTS / "a1_description" / "urdf" / "a1.urdf",
     ROBOTS / "hyq_description" / "robots" / "hyq_no_sensors.urdf",
@@ -28,8 +28,8 @@ def drop_of(robot: Robot) -> World:
     return WorldBuilder(robot, paper_device()).flight(drop, Wheels.BRAKED)
 
 
-@pytest.mark.parametrize("path", SOME, ids=lambda path: path.stem)
-def test_no_drive_is_faster_than_the_step(path):
+@pytest.mark.parametrize("path", SELECTED, ids=lambda path: path.stem)
+def test_drives_are_stable_at_the_time_step(path):
     """Eigenvalues of the joints' own second-order system, against Runge-Kutta's limit of 2.78."""
     robot = read_robot(path)
     world = drop_of(robot)
@@ -43,14 +43,14 @@ def test_no_drive_is_faster_than_the_step(path):
     inverse = inverse[np.ix_(dofs, dofs)]
     zero, one = np.zeros_like(inverse), np.eye(len(dofs))
     stiffness = inverse @ np.diag(model.actuator_gainprm[drives, 0])
-    own = model.dof_damping[dofs]
-    damping = inverse @ np.diag(own - model.actuator_biasprm[drives, 2])
+    joint_damping = model.dof_damping[dofs]
+    damping = inverse @ np.diag(joint_damping - model.actuator_biasprm[drives, 2])
     poles = np.linalg.eigvals(np.block([[zero, one], [-stiffness, -damping]]))
     assert np.all(poles.real < 0.0)
     assert np.abs(poles).max() * model.opt.timestep < 1.5
 
 
-def test_a_standing_robot_gives_way_by_less_than_half_a_radian(solo12):
+def test_joints_of_a_standing_robot_sag_by_less_than_half_a_radian(solo12):
     world = drop_of(solo12)
     model, data = world.model, mujoco.MjData(world.model)
     data.qpos[:], data.ctrl[:] = world.qpos, world.ctrl
@@ -81,9 +81,9 @@ def test_drives_do_not_exceed_the_joint_effort():
 
 
 @pytest.mark.slow
-def test_joints_that_are_in_no_leg_stay_where_they_are():
-    """The iCub's file gives its head next to no inertia, and its neck a damping that no step of a
-    millisecond could follow."""
+def test_joints_outside_the_legs_keep_their_posture():
+    """In iCub's file the head has hardly any inertia, and the neck a damping that is too high for
+    time steps of a millisecond."""
     robot = read_robot(ROBOTS / "icub_description" / "robots" / "icub.urdf")
     world = drop_of(robot)
     model, data = world.model, mujoco.MjData(world.model)

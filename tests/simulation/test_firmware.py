@@ -1,4 +1,4 @@
-"""The controller in C against the law that flies in the batch."""
+"""The controller in C against the control law of the simulation."""
 
 import re
 import subprocess
@@ -26,25 +26,25 @@ from ocs_design.sizing.trajectory.plans import drive_line_of
 from ocs_design.sizing.trajectory.tracking import tracking_gains
 
 PERIOD, STATES = 0.005, 400
-WOUND = replace(EC45, resistance=0.6, torque_constant=0.037)
+WITH_WINDING = replace(EC45, resistance=0.6, torque_constant=0.037)
 
 
 def worlds_of(solo12, device, *, desaturate):
-    """The paper's three maneuvers; those that are foreseen with a plan."""
+    """Worlds of the paper's three maneuvers, with a plan where the maneuver turns the trunk."""
     builder = WorldBuilder(solo12, device, Options(desaturate=desaturate))
     worlds = {}
-    for each in default_maneuvers(solo12):
-        world = builder.flight(each, Wheels.ACTIVE)
+    for maneuver in default_maneuvers(solo12):
+        world = builder.flight(maneuver, Wheels.ACTIVE)
         if world.turn.span:
             turn = replace(world.turn, profile=Quintic())
             plan = from_rest(world.body, turn, samples=401)
-            if isinstance(each, Flip):
-                # Heading included, on gains that change along the plan.
+            if isinstance(maneuver, Flip):
+                # Feedback of the heading too, with gains that vary along the plan.
                 attitude = quaternions.from_axis_angle(turn.axis, turn.angle(plan.time))
                 gains = tracking_gains(world.body, drive_line_of(device), plan)
                 plan = replace(plan, attitude=attitude, gains=gains)
-            world = builder.flight(each, Wheels.ACTIVE, plan)
-        worlds[each.name] = world
+            world = builder.flight(maneuver, Wheels.ACTIVE, plan)
+        worlds[maneuver.name] = world
     return worlds
 
 
@@ -54,7 +54,7 @@ CASES = {
     "wheels on all axes": (layout_device(Layout(LayoutName.ORTHOGONAL)), False),
     "ideal wheels": (paper_device(), False),
     "motors on a weak supply, braked in stance": (
-        replace(driven_device(drive=WOUND), supply=Supply(24.0, 2.0)),
+        replace(driven_device(drive=WITH_WINDING), supply=Supply(24.0, 2.0)),
         True,
     ),
 }
@@ -65,7 +65,7 @@ CASES = {
     params=[pytest.param(name, marks=[pytest.mark.slow] * (name in SLOW)) for name in CASES],
 )
 def written(request, solo12, tmp_path_factory):
-    """Worlds by name, and the folder of their controller."""
+    """Worlds by name, and the folder with their controller in C."""
     device, desaturate = CASES[request.param]
     worlds = worlds_of(solo12, device, desaturate=desaturate)
     folder = tmp_path_factory.mktemp("controller")
@@ -74,13 +74,13 @@ def written(request, solo12, tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def compiled_one(written):
-    """The controller by its Python binding, and that module."""
+def controller_and_module(written):
+    """The compiled controller, and the module of its Python binding."""
     return bound(written[1])
 
 
 def random_states(wheels, n=STATES):
-    """Upright to upside down, slow to far beyond what motors do, a third of them on the ground."""
+    """Attitudes, rates, wheel speeds far above those of motors, and times on the ground."""
     rng = np.random.default_rng(7)
     attitude = rng.normal(size=(n, 4))
     attitude[: n // 10, 1:3] = 0.0
@@ -92,7 +92,7 @@ def random_states(wheels, n=STATES):
 
 
 def by_numpy(world, target, attitude, rate, speed, ground):
-    """Torques of the batch's own law, and of its brake."""
+    """Torques of the simulation's control law and brake."""
     target = target.repeat(len(rate)).landed(ground > 0.0)
     if world.desaturation is not None:
         brake = WheelBrake([world.desaturation] * len(rate), PERIOD)
@@ -103,51 +103,55 @@ def by_numpy(world, target, attitude, rate, speed, ground):
     )
 
 
-def test_it_gives_the_torques_of_the_flown_law(written, compiled_one):
-    worlds, (controller, module) = written[0], compiled_one
-    states = [np.split(each, 50) for each in random_states(module.WHEELS)]
+def test_torques_are_those_of_the_control_law(written, controller_and_module):
+    worlds, (controller, module) = written[0], controller_and_module
+    states = [np.split(values, 50) for values in random_states(module.WHEELS)]
     targets = targets_of(list(worlds.values()), PERIOD)
-    for index, (world, own) in enumerate(zip(worlds.values(), targets, strict=True)):
-        instants = np.random.default_rng(8).integers(0, len(own) + 20, 50)
+    for index, (world, target) in enumerate(zip(worlds.values(), targets, strict=True)):
+        instants = np.random.default_rng(8).integers(0, len(target) + 20, 50)
         for k, *state in zip(instants.tolist(), *states, strict=True):
-            wanted = by_numpy(world, own[min(k, len(own) - 1)], *state)
-            given = [controller.step(index, PERIOD * k, *each) for each in zip(*state, strict=True)]
-            np.testing.assert_allclose(given, wanted, rtol=1e-9, atol=1e-9)
-            assert np.abs(wanted).max() > 0.01
+            expected = by_numpy(world, target[min(k, len(target) - 1)], *state)
+            actual = [
+                controller.step(index, PERIOD * k, *single) for single in zip(*state, strict=True)
+            ]
+            np.testing.assert_allclose(actual, expected, rtol=1e-9, atol=1e-9)
+            assert np.abs(expected).max() > 0.01
 
 
 @pytest.mark.slow
-def test_it_gives_the_torques_of_the_flights(written, compiled_one):
-    worlds, controller = written[0], compiled_one[0]
+def test_torques_are_those_of_the_flights(written, controller_and_module):
+    worlds, controller = written[0], controller_and_module[0]
     recording = simulate(list(worlds.values()))
     for index in range(len(worlds)):
-        flown = np.flatnonzero(np.cumsum(recording.contact[:, index]) == 0)
+        in_flight = np.flatnonzero(np.cumsum(recording.contact[:, index]) == 0)
         states = (
-            series[flown, index]
+            series[in_flight, index]
             for series in (recording.attitude, recording.rate, recording.wheel_speed)
         )
-        given = [
+        actual = [
             controller.step(index, PERIOD * k, *state)
-            for k, *state in zip(flown, *states, strict=True)
+            for k, *state in zip(in_flight, *states, strict=True)
         ]
-        np.testing.assert_allclose(given, recording.wheel_torque[flown, index], atol=1e-9)
-        assert len(flown) > 50
+        np.testing.assert_allclose(actual, recording.wheel_torque[in_flight, index], atol=1e-9)
+        assert len(in_flight) > 50
 
 
 @pytest.mark.slow
-def test_the_harness_prints_the_same_and_single_precision_nearly(written, compiled_one):
-    folder, (controller, module) = written[1], compiled_one
+def test_the_harness_prints_the_same_torques_also_in_single_precision(
+    written, controller_and_module
+):
+    folder, (controller, module) = written[1], controller_and_module
     attitude, rate, speed, ground = random_states(module.WHEELS, 50)
     lines = np.column_stack([np.full(50, 0.1), ground, attitude, rate, speed])
     text = "".join(f"1 {' '.join(map(repr, line))}\n" for line in lines.tolist())
     states = zip(attitude, rate, speed, ground, strict=True)
-    wanted = np.array([controller.step(1, 0.1, *state) for state in states])
+    expected = np.array([controller.step(1, 0.1, *state) for state in states])
     for options, tolerance in (((), 0.0), (("-Docs_real=float",), 1e-4)):
-        said = subprocess.run(
+        process = subprocess.run(
             [compiled(folder, *options)], input=text, capture_output=True, text=True, check=True
         )
-        given = np.array([list(map(float, line.split())) for line in said.stdout.splitlines()])
-        assert np.abs(given - wanted).max() <= tolerance * np.abs(wanted).max()
+        printed = np.array([list(map(float, line.split())) for line in process.stdout.splitlines()])
+        assert np.abs(printed - expected).max() <= tolerance * np.abs(expected).max()
 
 
 @pytest.mark.parametrize(
@@ -162,26 +166,26 @@ def test_the_harness_prints_the_same_and_single_precision_nearly(written, compil
         {"wheel_speed": (np.nan,)},
     ],
 )
-def test_what_cannot_be_gives_no_torque(compiled_one, state):
-    controller, module = compiled_one
-    sound = {
+def test_invalid_states_give_no_torque(controller_and_module, state):
+    controller, module = controller_and_module
+    valid = {
         "maneuver": 1,
         "time": 0.1,
         "attitude": (0.98, 0.1, 0.2, 0.0),
         "rate": (0.1, 0.2, 0.3),
         "wheel_speed": (10.0,) * module.WHEELS,
     }
-    assert all(controller.step(**sound))
-    assert controller.step(**{**sound, **state}) == [0.0] * module.WHEELS
+    assert all(controller.step(**valid))
+    assert controller.step(**{**valid, **state}) == [0.0] * module.WHEELS
 
 
 @pytest.mark.slow
 def test_it_allocates_nothing_and_takes_little_stack(written):
     _, folder = written
     library = compiled(folder, "-fPIC", "-shared", out="plain.so", sources=())
-    used = subprocess.run(["nm", "-uD", library], capture_output=True, text=True, check=True)
+    symbols = subprocess.run(["nm", "-uD", library], capture_output=True, text=True, check=True)
     called = {
-        line.split()[-1].partition("@")[0] for line in used.stdout.splitlines() if " U " in line
+        line.split()[-1].partition("@")[0] for line in symbols.stdout.splitlines() if " U " in line
     }
     assert called <= {"atan2", "sqrt", "fmin", "fmax", "floor"}
     compiled(folder, "-fstack-usage", "-c", out="plain.o", sources=())
@@ -190,13 +194,13 @@ def test_it_allocates_nothing_and_takes_little_stack(written):
     assert 0 < max(stack) <= 1024
 
 
-def test_names_that_are_no_identifiers_and_those_that_are_alike(solo12, tmp_path):
+def test_maneuver_names_become_distinct_identifiers(solo12, tmp_path):
     device = paper_device()
     world = WorldBuilder(solo12, device).flight(default_maneuvers(solo12)[0], Wheels.ACTIVE)
     names = ["*/ übung", "Push 1", "push-1", "§"]
     worlds = dict.fromkeys(names, world)
     write_controller("solo12", worlds, tmp_path, joints=joint_names(device), period=PERIOD)
     header = (tmp_path / "solo12_ocs_controller.h").read_text()
-    found = re.findall(r"^    (OCS_\w+),$", header, re.MULTILINE)
-    assert len(set(found)) == len(names)
+    identifiers = re.findall(r"^    (OCS_\w+),$", header, re.MULTILINE)
+    assert len(set(identifiers)) == len(names)
     compiled(tmp_path)

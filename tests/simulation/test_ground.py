@@ -35,20 +35,20 @@ def body_with(shape: str, count: int = 1) -> mujoco.MjModel:
 def test_contact_begins_where_the_lowest_point_meets_the_floor(shape):
     model = body_with(shape)
     data = mujoco.MjData(model)
-    for turn in np.random.default_rng(2).normal(size=(20, 4)):
+    for quaternion in np.random.default_rng(2).normal(size=(20, 4)):
         contacts = []
-        data.qpos[:] = (0.0, 0.0, 3.0, *(turn / np.linalg.norm(turn)))
+        data.qpos[:] = (0.0, 0.0, 3.0, *(quaternion / np.linalg.norm(quaternion)))
         mujoco.mj_forward(model, data)
         height = 3.0 - lowest_point(model, data)
-        for above in (1e-6, -1e-6):
-            data.qpos[2] = height + above
+        for offset in (1e-6, -1e-6):
+            data.qpos[2] = height + offset
             mujoco.mj_forward(model, data)
             contacts.append(data.ncon)
         assert contacts[0] == 0
         assert contacts[1] > 0
 
 
-def test_only_the_floor_is_touched():
+def test_bodies_collide_with_the_floor_alone():
     model = body_with("box", count=2)
     data = mujoco.MjData(model)
     data.qpos[2] = data.qpos[9] = 0.0

@@ -1,4 +1,4 @@
-"""Jumps from the ground and shoves of a standing robot, in MuJoCo."""
+"""Jumps from the ground and shoves of a standing robot in MuJoCo."""
 
 from dataclasses import replace
 
@@ -41,7 +41,7 @@ def runs(solo12, disturbance, jumps):
     return run_scenarios(Flights(solo12, paper_device(), [disturbance], jumps=jumps))
 
 
-def test_from_the_ground_the_device_lands_the_disturbed_jump_and_nothing_else_does(runs):
+def test_only_with_the_device_the_disturbed_jump_from_the_ground_passes(runs):
     assert [run.passed for run in runs] == [True, False]
     assert not any(run.note for run in runs)
 
@@ -57,37 +57,37 @@ def test_the_jump_leaves_the_ground_when_and_as_fast_as_planned(runs, disturbanc
         assert run.metrics.rise == pytest.approx(up**2 / (2.0 * 9.81), rel=0.12)
 
 
-def test_momentum_is_kept_though_only_wheels_and_trunk_set_the_scale(runs):
-    """Legs that brake turn at 20 rad/s: they are stepped finer than a flight with legs at rest."""
+def test_momentum_is_conserved_relative_to_wheels_and_trunk(runs):
+    """Braking legs turn at 20 rad/s and need smaller steps than flights with legs at rest."""
     assert max(run.metrics.momentum_error for run in runs) < 3e-7
 
 
 @pytest.mark.slow
-def test_a_flight_whose_momentum_is_off_is_flown_again_in_half_the_step(
+def test_a_flight_with_a_momentum_error_is_repeated_with_half_the_step(
     solo12, disturbance, jumps, runs, monkeypatch
 ):
-    """Solo12's braking legs at 1 ms; runs that keep their momentum are left as they are."""
+    """Solo12's braking legs at 1 ms; runs that conserve momentum are not repeated."""
     monkeypatch.setattr("ocs_design.simulation.world_builder.JUMP_STEP", STEP)
     monkeypatch.setattr("ocs_design.simulation.scenario.HALVINGS", 0)
     coarse = run_scenarios(Flights(solo12, paper_device(), [disturbance], jumps=jumps))
     monkeypatch.undo()
     monkeypatch.setattr("ocs_design.simulation.world_builder.JUMP_STEP", STEP)
     refined = run_scenarios(Flights(solo12, paper_device(), [disturbance], jumps=jumps))
-    is_off = [run.metrics.momentum_error > MOMENTUM_GATE for run in coarse]
-    assert any(is_off)
-    for before, after, fine, off in zip(coarse, refined, runs, is_off, strict=True):
-        if off:
+    inaccurate = [run.metrics.momentum_error > MOMENTUM_GATE for run in coarse]
+    assert any(inaccurate)
+    for before, after, expected, wrong in zip(coarse, refined, runs, inaccurate, strict=True):
+        if wrong:
             assert before.passed is None
             assert "with steps of 0.5 ms: at 1 ms its angular momentum was off by" in after.note
-            assert after.metrics == fine.metrics
-            assert after.series.com == pytest.approx(fine.series.com, abs=0.0)
+            assert after.metrics == expected.metrics
+            assert after.series.com == pytest.approx(expected.series.com, abs=0.0)
         else:
             assert (after.metrics, after.note) == (before.metrics, before.note)
 
 
 @pytest.mark.slow
 def test_a_jump_balances_its_energy(world):
-    """By a loop that is written anew, which meets the batch's own centre of mass."""
+    """By an independent loop, which agrees with the centre of mass of the simulation."""
     recording = simulate([world])
     metrics = measure(recording, 0, world)
     found = energy_balance(world, recording, 0, period=5e-3, until=metrics.touchdown_time)
@@ -97,18 +97,19 @@ def test_a_jump_balances_its_energy(world):
     assert found.relative_residual(slice(0, instants)) < 1e-3
 
 
-def test_worlds_of_two_steps_are_together_what_each_is_alone(solo12, builder, world):
+def test_worlds_with_different_steps_do_not_affect_each_other(solo12, builder, world):
     _, drop, _ = default_maneuvers(solo12)
-    short = [replace(each, duration=0.4) for each in (world, builder.flight(drop, Wheels.ACTIVE))]
-    assert [each.model.opt.timestep for each in short] == [JUMP_STEP, STEP]
-    told: list[float] = []
-    together = simulate(short, progress=told.append)
-    for index, each in enumerate(short):
-        alone = simulate([each])
+    flights = world, builder.flight(drop, Wheels.ACTIVE)
+    short = [replace(flight, duration=0.4) for flight in flights]
+    assert [flight.model.opt.timestep for flight in short] == [JUMP_STEP, STEP]
+    progress: list[float] = []
+    together = simulate(short, progress=progress.append)
+    for index, flight in enumerate(short):
+        alone = simulate([flight])
         np.testing.assert_array_equal(together.momentum[:, index], alone.momentum[:, 0])
         np.testing.assert_array_equal(together.contact[:, index], alone.contact[:, 0])
-    assert told == sorted(told)
-    assert (told[0], told[-1]) == (0.0, 1.0)
+    assert progress == sorted(progress)
+    assert (progress[0], progress[-1]) == (0.0, 1.0)
 
 
 def test_wheels_wait_for_the_lift_off(runs):
@@ -118,23 +119,23 @@ def test_wheels_wait_for_the_lift_off(runs):
     assert run.metrics.peak_wheel_torque > 0.1
 
 
-def test_the_push_comes_so_long_after_the_lift_off_as_was_asked(builder, disturbance, jumps):
+def test_the_push_starts_at_its_onset_after_lift_off(builder, disturbance, jumps):
     bare = builder.flight(disturbance, Wheels.ABSENT, None, jumps["disturbance"].bare)
     recording = simulate([bare])
-    found = measure(recording, 0, bare)
+    metrics = measure(recording, 0, bare)
     impulse = np.linalg.norm(recording.impulse[:, 0], axis=1)
-    first = recording.time[np.flatnonzero(impulse)[0] - 1] - found.lift_off_time
-    assert first == pytest.approx(disturbance.onset, abs=0.005)
+    onset = recording.time[np.flatnonzero(impulse)[0] - 1] - metrics.lift_off_time
+    assert onset == pytest.approx(disturbance.onset, abs=0.005)
 
 
-def test_a_trunk_swings_less_and_shorter_after_a_landing_with_the_device(runs):
+def test_the_device_reduces_swing_and_settling_time_after_landing(runs):
     carrying, bare = (run.metrics for run in runs)
     assert carrying.pitch_swing < 0.3 * bare.pitch_swing
     assert carrying.roll_swing < 0.3 * bare.roll_swing
     assert carrying.settling_time < bare.settling_time
 
 
-def test_drives_give_the_law_of_the_paper(world):
+def test_drives_follow_the_control_law_of_the_paper(world):
     """K_p (q_ref - q) + K_d (q_dot_ref - q_dot) + tau_ref, in the middle of the push-off."""
     model, legs = world.model, world.legs
     data, k = mujoco.MjData(model), 150
@@ -166,21 +167,21 @@ def test_after_the_jump_drives_hold_the_posture(world):
 
 
 @pytest.mark.parametrize(
-    ("period", "touches", "after"), [(1e-3, "00001000000", 5), (5e-3, "0100000001", 2)]
+    ("period", "contacts", "steps"), [(1e-3, "00001000000", 5), (5e-3, "0100000001", 2)]
 )
-def test_lift_off_takes_five_milliseconds_without_a_contact(world, period, touches, after):
-    """With control steps of 1 ms a foot that bounces does not count, nor one that then scrapes.
+def test_lift_off_takes_five_milliseconds_without_a_contact(world, period, contacts, steps):
+    """With control steps of 1 ms bouncing feet do not count as lift-off, nor scraping as landing.
 
-    Aliengo's sample 253: 5 ms without contact, and the flight was measured to end there.
+    Aliengo's sample 253 scraped after 5 ms, and the flight was measured to end there.
     """
-    clock, late = FlightClock([world], period), int(world.legs.lift_off / period)
-    for k, touch in enumerate(touches, start=late):
-        clock.look(k, np.array([[touch == "1"]]))
-    assert clock.lift_off[0] == late + after
-    assert clock.steps(late + after + 2, 1)[0] == 2
+    clock, planned = FlightClock([world], period), int(world.legs.lift_off / period)
+    for k, contact in enumerate(contacts, start=planned):
+        clock.look(k, np.array([[contact == "1"]]))
+    assert clock.lift_off[0] == planned + steps
+    assert clock.steps(planned + steps + 2, 1)[0] == 2
 
 
-def test_feet_that_lift_early_in_the_push_off_do_not_count(world):
+def test_feet_that_lift_early_in_the_push_off_are_no_lift_off(world):
     clock = FlightClock([world], 5e-3)
     clock.look(3, np.zeros((1, 5), dtype=bool))
     assert clock.steps(4, 1)[0] < 0
@@ -195,10 +196,13 @@ def test_legs_too_weak_to_jump_are_not_judged(solo12, disturbance, jumps):
         velocity=0.0 * plan.legs.velocity,
         torque=0.0 * plan.legs.torque,
     )
-    stays = JumpPlan(still, "")
+    no_jump = JumpPlan(still, "")
     runs = run_scenarios(
         Flights(
-            solo12, paper_device(), [disturbance], jumps={"disturbance": JumpPlans(stays, stays)}
+            solo12,
+            paper_device(),
+            [disturbance],
+            jumps={"disturbance": JumpPlans(no_jump, no_jump)},
         )
     )
     assert [run.passed for run in runs] == [None, None]
@@ -206,7 +210,7 @@ def test_legs_too_weak_to_jump_are_not_judged(solo12, disturbance, jumps):
 
 
 @pytest.mark.slow
-def test_a_robot_that_stands_is_shoved_and_calmed(solo12, builder):
+def test_the_device_reduces_the_swing_of_a_shoved_robot(solo12, builder):
     shove = Shove(name="shove", torque=(2.0, 8.0, 0.0), duration=0.05, settling=0.5)
     runs = run_scenarios(Flights(solo12, paper_device(), [shove]))
     carrying, bare = (run.metrics for run in runs)

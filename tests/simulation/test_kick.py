@@ -1,4 +1,4 @@
-"""A kick as it is flown: all of its impulse, and no angular momentum that no torque explains."""
+"""Simulated kicks give exactly their impulse and angular momentum."""
 
 from copy import copy
 from dataclasses import replace
@@ -23,8 +23,8 @@ KICK = Disturbance(
 )
 
 
-def check_gained(world, momentum, velocity):
-    """What its flight gains by the kick, beside what it falls."""
+def check_kick(world, momentum, velocity):
+    """Check the changes of angular momentum and velocity by the kick, without gravity."""
     recording = simulate([world], hold=5)
     before, after = np.searchsorted(recording.time, [0.09, 0.17])
     gained = recording.momentum[after, 0] - recording.momentum[before, 0]
@@ -36,12 +36,12 @@ def check_gained(world, momentum, velocity):
 
 def test_a_kick_changes_velocity_and_momentum_by_its_impulses(builder):
     world = builder.flight(KICK, Wheels.ABSENT)
-    check_gained(world, np.multiply(KICK.torque, KICK.duration), KICK.velocity_change)
+    check_kick(world, np.multiply(KICK.torque, KICK.duration), KICK.velocity_change)
 
 
 @pytest.mark.parametrize("wheels", [Wheels.ABSENT, Wheels.BRAKED])
-def test_a_force_at_a_point_does_what_mujoco_makes_of_it(builder, wheels):
-    """With the device on, about the centre of mass of both; the paper's moves it by 22 mm."""
+def test_a_force_at_a_point_gives_the_momentum_of_mujoco(builder, wheels):
+    """About the centre of mass of robot and device, which is 22 mm from the robot's own."""
     kick = replace(KICK, impulse=(-0.2, 0.6, 0.3), point=(0.1, 0.05, 0.0))
     world = builder.flight(kick, wheels)
     model = copy(world.model)
@@ -49,16 +49,16 @@ def test_a_force_at_a_point_does_what_mujoco_makes_of_it(builder, wheels):
     model.opt.timestep, model.opt.gravity[:], data.qpos[:] = 1e-6, 0.0, world.qpos
     mujoco.mj_forward(model, data)
     trunk = world.addresses.trunk
-    hit, force = data.xpos[trunk] + kick.point, np.array(kick.impulse) / model.opt.timestep
-    mujoco.mj_applyFT(model, data, force, np.zeros(3), hit, trunk, data.qfrc_applied)
+    point, force = data.xpos[trunk] + kick.point, np.array(kick.impulse) / model.opt.timestep
+    mujoco.mj_applyFT(model, data, force, np.zeros(3), point, trunk, data.qfrc_applied)
     mujoco.mj_step(model, data)
     mujoco.mj_forward(model, data)
     mujoco.mj_subtreeVel(model, data)
-    check_gained(world, data.subtree_angmom[0], data.subtree_linvel[0])
+    check_kick(world, data.subtree_angmom[0], data.subtree_linvel[0])
 
 
 @pytest.mark.slow
-def test_the_momentum_gate_stays_shut_to_a_kick(solo12):
+def test_a_kick_is_no_momentum_error(solo12):
     with_device, without = run_scenarios(Flights(solo12, paper_device(), [KICK]))
     for run in (with_device, without):
         assert run.metrics.momentum_error < 1e-6

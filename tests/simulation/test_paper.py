@@ -20,7 +20,7 @@ RPM = np.pi / 30.0
 
 @pytest.fixture(scope="module")
 def maneuvers(solo12):
-    """The paper's own numbers: Solo12 is 0.1 % off the height that they are scaled by."""
+    """The numbers of the paper; scaled defaults of Solo12 deviate by 0.1 %."""
     jump, drop, flip = paper_maneuvers(solo12)
     jump = replace(jump, torque=(0.2, 0.8, 0.0), onset=0.1, duration=0.05)
     high = replace(jump, name="high jump", takeoff_velocity=(jump.takeoff_velocity[0], 4.5))
@@ -33,11 +33,11 @@ def runs(solo12, maneuvers):
     return {(run.scenario, run.ocs): run for run in flown}
 
 
-def test_from_4_5_metres_per_second_the_bare_robot_turns_over(runs):
+def test_after_a_jump_at_4_5_m_s_the_bare_robot_turns_over(runs):
     assert not runs["high jump", False].metrics.upright_at_end
 
 
-def test_the_papers_step_asks_for_the_torque_that_theory_names(solo12, maneuvers):
+def test_the_papers_step_needs_the_torque_of_the_theory(solo12, maneuvers):
     options = Options(drop_profile=Step())
     run, _ = run_scenarios(Flights(solo12, paper_device(), maneuvers[1:2], options=options))
     assert run.passed is True, run.reason
@@ -51,8 +51,8 @@ def test_the_papers_transpose_passes_too(solo12, maneuvers):
     assert [run.passed for run in runs] == [True, False] * 3
 
 
-def test_a_motor_that_is_too_weak_fails_and_says_why(solo12, maneuvers):
-    """docs/theory.md, What a motor can do: 0.30 N m cannot do the drop in time with any wheel."""
+def test_a_motor_that_is_too_weak_fails_with_a_reason(solo12, maneuvers):
+    """docs/theory.md, What a motor can do: 0.30 N m are too little for the drop with any wheel."""
     device = paper_device(drive=motor(1000.0, None, 0.2))
     run, _ = run_scenarios(Flights(solo12, device, maneuvers[1:2]))
     assert run.passed is False
@@ -61,7 +61,7 @@ def test_a_motor_that_is_too_weak_fails_and_says_why(solo12, maneuvers):
     assert run.metrics.peak_wheel_torque <= 0.2
 
 
-def test_a_simulation_that_breaks_down_is_not_judged(solo12, maneuvers, tmp_path, monkeypatch):
+def test_an_unstable_simulation_is_not_judged(solo12, maneuvers, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     runs = run_scenarios(Flights(solo12, paper_device(), [replace(maneuvers[1], gravity=1e200)]))
     assert [run.passed for run in runs] == [None, None]
@@ -87,7 +87,7 @@ def fly(path):
 
 
 @pytest.mark.parametrize("path", slow_subset(3, [*QUADRUPEDS, *BIPEDS]))
-def test_flights_keep_their_momentum_and_land_level_with_the_device(path):
+def test_flights_conserve_momentum_and_land_level_with_the_device(path):
     runs = fly(path)
     if path in QUADRUPEDS:
         assert [run.passed for run in runs] == [True, False] * 3
@@ -103,7 +103,7 @@ def test_flights_keep_their_momentum_and_land_level_with_the_device(path):
 
 
 def test_a_biped_without_balance_is_judged_on_touchdown_alone():
-    """On Earth it falls over on its joint drives; at a sixth of the weight they hold it up."""
+    """On Earth it falls over on its joint drives; with a sixth of the weight it stands."""
     runs = fly("bolt_description/robots/bolt")
     assert [run.passed for run in runs] == [True, False] * 3
     jump, drop, flip = (run.reason for run in runs if run.ocs)

@@ -1,4 +1,4 @@
-"""Turns to be flown, and trajectories tracked with their torque, within the motor's limits."""
+"""Turn profiles within the motor's limits, and tracking of trajectories with their torque."""
 
 from dataclasses import replace
 
@@ -79,7 +79,7 @@ def test_utilisation_is_peak_speed_of_the_busier_wheel_over_no_load_speed(inerti
     assert utilisation(FLIP, body, MotorLimits(busier, 0.0, np.inf)) == pytest.approx(1.0, rel=1e-4)
 
 
-def test_a_turn_that_fits_is_left_as_it_is():
+def test_a_feasible_turn_stays_as_it_is():
     fitted = fit_turn(FLIP, BODY, MotorLimits(np.inf, 0.0, np.inf))
     assert fitted is FLIP
     assert fitted.note == ""
@@ -95,7 +95,7 @@ def test_a_wheel_a_little_too_slow_gets_a_flatter_profile():
     assert "trapezoid" in fitted.note
 
 
-def test_a_wheel_far_too_slow_gets_more_time_and_says_so():
+def test_a_wheel_far_too_slow_gets_more_time_with_a_note():
     limits = MotorLimits(700.0, 350.0, 1.0)
     fitted = fit_turn(FLIP, BODY, limits)
     assert utilisation(fitted, BODY, limits) == pytest.approx(RESERVE, rel=1e-6)
@@ -104,7 +104,7 @@ def test_a_wheel_far_too_slow_gets_more_time_and_says_so():
     assert utilisation(faster, BODY, limits) > RESERVE
 
 
-def test_a_fall_does_not_wait():
+def test_a_fall_is_not_extended():
     drop = Turn(PITCH, 0.5, 0.0, 0.385, Quintic(), extendable=False)
     fitted = fit_turn(drop, BODY, MotorLimits(300.0, 0.0, np.inf))
     assert isinstance(fitted.profile, Step)
@@ -138,60 +138,62 @@ def planned(builder, maneuver):
     return from_rest(world.body, replace(world.turn, profile=Quintic()))
 
 
-def in_flight(builder, maneuver, trajectory):
+def until_landing(builder, maneuver, trajectory):
     world = builder.flight(maneuver, Wheels.ACTIVE, trajectory)
     return replace(world, duration=world.flight_time)
 
 
 def tracking_error(world):
-    """Largest tilt off the trajectory [rad]."""
+    """Largest angle between the actual and the planned vertical [rad]."""
     recording, trajectory = simulate([world]), world.trajectory
     vertical = quaternions.vertical(recording.attitude[:, 0])
-    wanted = [np.interp(recording.time, trajectory.time, c) for c in trajectory.vertical.T]
-    return np.abs(tilt_error(vertical, np.column_stack(wanted))).max()
+    planned_vertical = [
+        np.interp(recording.time, trajectory.time, c) for c in trajectory.vertical.T
+    ]
+    return np.abs(tilt_error(vertical, np.column_stack(planned_vertical))).max()
 
 
 @pytest.mark.parametrize("name", DRIVES)
 def test_feed_forward_follows_where_feedback_alone_lags_behind(name):
     builder = WorldBuilder(ROBOT, driven_device(drive=DRIVES[name]))
     trajectory = planned(builder, DROP)
-    without = replace(trajectory, wheel_torque=np.zeros_like(trajectory.wheel_torque))
-    error = tracking_error(in_flight(builder, DROP, trajectory))
+    no_feedforward = replace(trajectory, wheel_torque=np.zeros_like(trajectory.wheel_torque))
+    error = tracking_error(until_landing(builder, DROP, trajectory))
     assert error < np.radians(0.1)
-    assert tracking_error(in_flight(builder, DROP, without)) > 30.0 * error
+    assert tracking_error(until_landing(builder, DROP, no_feedforward)) > 30.0 * error
 
 
-def test_on_the_trajectory_the_law_adds_nothing(builder, trajectory):
-    """Feedback is what is added: in the planned state the motors give the planned torque."""
+def test_on_the_trajectory_there_is_no_feedback(builder, trajectory):
+    """In the planned state the motors give the planned torque."""
     law = WheelLaw.of(
         builder.flight(DROP, Wheels.ACTIVE).body,
         Gains(60.0, 12.0),
         MotorLimits(np.inf, 0.0, np.inf),
         Allocation.PSEUDO_INVERSE,
     )
-    # Momentum that it did not start with makes the gyroscopic torque worth looking at.
+    # Additional momentum makes the gyroscopic torque count.
     trajectory = replace(trajectory, wheel_speed=trajectory.wheel_speed + np.array([80.0, -50.0]))
     times, period = trajectory.time[:-1], trajectory.time[1]
     target = track(trajectory, law, times, period)
     state = trajectory.vertical[:-1], trajectory.rate[:-1], trajectory.wheel_speed[:-1]
-    given = law.repeat(len(times)).torque(*state, target, period)
-    between = 0.5 * (trajectory.wheel_torque[1:] + trajectory.wheel_torque[:-1])
-    np.testing.assert_allclose(given, between, rtol=0, atol=1e-12)
+    actual = law.repeat(len(times)).torque(*state, target, period)
+    expected = 0.5 * (trajectory.wheel_torque[1:] + trajectory.wheel_torque[:-1])
+    np.testing.assert_allclose(actual, expected, rtol=0, atol=1e-12)
 
 
 @pytest.mark.parametrize("period", [1e-3, 5e-3, 0.0371])
 def test_held_torques_have_the_planned_impulse(trajectory, law, period):
-    """Whatever the control step, also where samples and steps do not meet; to the last of them."""
+    """For any control step, also where samples and steps do not coincide, up to the end."""
     samples = {name: x for name, x in vars(trajectory).items() if isinstance(x, np.ndarray)}
-    few = replace(trajectory, **{name: x[::13] for name, x in samples.items()})
+    coarse = replace(trajectory, **{name: x[::13] for name, x in samples.items()})
     times = np.arange(0.0, 1.2, period)
-    still = replace(few, rate=np.zeros_like(few.rate))
-    until = np.cumsum(track(still, law, times, period).torque, axis=0) * period
+    without_rates = replace(coarse, rate=np.zeros_like(coarse.rate))
+    impulse = np.cumsum(track(without_rates, law, times, period).torque, axis=0) * period
     exact = [
-        [np.trapezoid(*_until(few.time, column, end)) for column in few.wheel_torque.T]
+        [np.trapezoid(*_until(coarse.time, column, end)) for column in coarse.wheel_torque.T]
         for end in times + period
     ]
-    np.testing.assert_allclose(until, exact, rtol=0, atol=1e-12)
+    np.testing.assert_allclose(impulse, exact, rtol=0, atol=1e-12)
 
 
 def _until(time, values, end):
@@ -202,21 +204,21 @@ def _until(time, values, end):
 
 
 def test_after_its_end_the_trunk_is_held_level(trajectory, law):
-    late = track(trajectory, law, trajectory.time[-1] + np.array([0.0, 0.3]), 5e-3)
-    np.testing.assert_array_equal(late.vertical, [[0.0, 0.0, 1.0]] * 2)
-    np.testing.assert_array_equal(late.rate, 0.0)
-    np.testing.assert_array_equal(late.torque, 0.0)
+    target = track(trajectory, law, trajectory.time[-1] + np.array([0.0, 0.3]), 5e-3)
+    np.testing.assert_array_equal(target.vertical, [[0.0, 0.0, 1.0]] * 2)
+    np.testing.assert_array_equal(target.rate, 0.0)
+    np.testing.assert_array_equal(target.torque, 0.0)
 
 
 def test_after_a_quarter_turn_the_trunk_is_held_there(trajectory, law):
-    """It was thrown back to level, in flights and in the exported C alike."""
+    """Once the target returned to level, in flights and in the exported C alike."""
     backwards = replace(trajectory, vertical=trajectory.vertical[::-1])
-    late = track(backwards, law, trajectory.time[-1] + np.array([0.0, 0.3]), 5e-3)
-    np.testing.assert_array_equal(late.vertical, [trajectory.vertical[0]] * 2)
+    target = track(backwards, law, trajectory.time[-1] + np.array([0.0, 0.3]), 5e-3)
+    np.testing.assert_array_equal(target.vertical, [trajectory.vertical[0]] * 2)
 
 
 @pytest.mark.slow
-def test_each_maneuver_tracks_its_own_reference_and_a_push_none(solo12):
+def test_each_maneuver_tracks_its_own_reference_but_not_a_push(solo12):
     device = driven_device(carrier=replace(driven_device().carrier, mass=0.05))
     jump, drop, flip = paper_maneuvers(solo12)
     drop = replace(drop, pitch=np.radians(15.0))
@@ -235,8 +237,8 @@ def test_each_maneuver_tracks_its_own_reference_and_a_push_none(solo12):
     ("speed_max", "tracked"),
     fast_subset(2, [(1047.2, True), (1047.2, False), (300.0, False), (300.0, True)]),
 )
-def test_a_real_motor_never_does_what_it_cannot(solo12, speed_max, tracked):
-    """The paper's drop, which takes all that the EC 45 has, and more with a slower wheel."""
+def test_flights_stay_within_the_limits_of_the_motor(solo12, speed_max, tracked):
+    """The paper's drop needs the full power of the EC 45, and more where its speed is limited."""
     drive = replace(EC45, speed_max=speed_max)
     device = driven_device(drive=drive)
     drop = paper_maneuvers(solo12)[1]
@@ -249,12 +251,12 @@ def test_a_real_motor_never_does_what_it_cannot(solo12, speed_max, tracked):
     assert np.abs(torque).max() <= 1.0
     assert np.abs(speed + slope * torque).max() <= 650.4 * (1.0 + 1e-12)
     assert np.abs(speed[torque * speed > 0.0]).max() <= speed_max
-    # With the motor off, the trunk's own motion still changes what is measured against it: a little
-    # up to touchdown, and in a bounce by a hundredth of what the floor turns the trunk by.
+    # With the motor off, the trunk's own motion still changes the relative speed: slightly up to
+    # touchdown, and in a bounce by a hundredth of the change of the trunk's rate.
     before = int(np.argmax(run.series.contact != 0))
     assert np.abs(run.series.wheel_speed[:before]).max() <= speed_max * (1.0 + 2e-6)
-    struck = np.abs(np.diff(run.series.rate[before - 1 :] @ device.axes, axis=0)).max()
-    assert np.abs(speed).max() <= speed_max + 0.01 * struck
+    impact = np.abs(np.diff(run.series.rate[before - 1 :] @ device.axes, axis=0)).max()
+    assert np.abs(speed).max() <= speed_max + 0.01 * impact
     lowest, highest = run.series.torque_lowest[flight], run.series.torque_highest[flight]
     assert np.all((lowest <= torque + 1e-12) & (torque <= highest + 1e-12))
-    assert np.abs(torque).max() > 0.5, "it was not asked for much"
+    assert np.abs(torque).max() > 0.5, "the motor is hardly used"

@@ -1,4 +1,4 @@
-"""What is flown, and what the legs are held to."""
+"""Which flights are simulated, and how standing is judged."""
 
 from dataclasses import replace
 
@@ -26,7 +26,7 @@ GENTLE = Drop(name="gentle", height=0.4, pitch=np.radians(10.0))
 
 @pytest.fixture
 def batches(monkeypatch):
-    """How many worlds each call of the engine got."""
+    """Number of worlds in each call of the engine."""
     sizes: list[int] = []
     simulate = scenario.simulate
 
@@ -46,11 +46,11 @@ def test_a_robot_that_stands_is_flown_twice(solo12, batches):
 
 @pytest.mark.slow
 def test_a_robot_that_falls_is_flown_level_too(solo12, batches, monkeypatch):
-    """Its drives let go of the joints."""
-    build = WorldBuilder.flight
+    """Here the drives of the joints are off."""
+    flight = WorldBuilder.flight
 
     def limp(self, *arguments, **options):
-        world = build(self, *arguments, **options)
+        world = flight(self, *arguments, **options)
         world.model.actuator_gainprm[:-2] = world.model.actuator_biasprm[:-2] = 0.0
         return world
 
@@ -60,7 +60,7 @@ def test_a_robot_that_falls_is_flown_level_too(solo12, batches, monkeypatch):
     assert "standing is not judged" in runs[0].reason
 
 
-def test_without_legs_nothing_is_flown_level(batches):
+def test_a_robot_without_legs_is_not_flown_level(batches):
     body = robot_by_hand(2.5, (0.030, 0.0535, 0.068))
     drop = replace(GENTLE, height=1.0)
     runs = run_scenarios(Flights(body, paper_device(), [drop]))
@@ -69,8 +69,8 @@ def test_without_legs_nothing_is_flown_level(batches):
 
 
 @pytest.mark.slow
-def test_a_trunk_frame_whose_z_axis_lies_down_is_not_judged():
-    """The human's frames have y up; where no trunk is named, the reader adds one with z up."""
+def test_a_trunk_frame_whose_z_axis_is_not_up_is_not_judged():
+    """Human's frames have y up; without `trunk` the reader adds a frame with z up."""
     path = ROBOTS / "human_description" / "robots" / "human.urdf"
     assert refusal(read_robot(path)) == ""
     human = read_robot(path, trunk="middle_pelvis")
@@ -101,10 +101,8 @@ def test_runs_come_in_the_order_of_the_maneuvers(solo12):
 @pytest.mark.parametrize(
     ("layout", "stops"), [(LayoutName.ORTHOGONAL, False), (LayoutName.PAIR, True)]
 )
-def test_whoever_is_to_stop_must_stop_about_the_vertical_if_its_wheels_reach_it(
-    solo12, layout, stops
-):
-    """With its wheels braked a robot in orbit turns on, about yaw alone."""
+def test_stopping_includes_yaw_if_the_wheels_can_act_about_it(solo12, layout, stops):
+    """With braked wheels a robot in orbit keeps its yaw rate."""
     stop = TurnTo(name="stop", rate=(0.0, 0.0, 0.5), duration=0.2, gravity=0.0, end=End.AT_REST)
     builder = WorldBuilder(solo12, layout_device(Layout(layout)))
     world = builder.flight(stop, Wheels.BRAKED)

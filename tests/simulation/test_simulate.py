@@ -1,4 +1,4 @@
-"""Many worlds flown at once, each as if it were alone, and the poses that are kept of them."""
+"""A batch of worlds, each simulated as if it were alone, and its recorded poses."""
 
 import time
 from dataclasses import fields, replace
@@ -45,11 +45,11 @@ def together(worlds):
 
 
 @pytest.mark.parametrize("threads", [1, 4])
-def test_numbers_do_not_depend_on_the_threads(worlds, together, threads):
+def test_results_do_not_depend_on_the_number_of_threads(worlds, together, threads):
     assert_same(together, simulate(worlds, threads=threads))
 
 
-def test_a_world_does_not_feel_the_others(worlds, together):
+def test_a_world_does_not_depend_on_the_others(worlds, together):
     for index, world in enumerate(worlds):
         alone = simulate([world])
         steps = alone.lengths[0]
@@ -70,7 +70,7 @@ def test_centre_of_mass_falls_freely(worlds, together):
         np.testing.assert_allclose(com, expected, atol=1e-9)
 
 
-def test_holding_the_torque_changes_little(worlds):
+def test_the_control_period_changes_little(worlds):
     fine, coarse = simulate(worlds[:1], hold=1), simulate(worlds[:1], hold=5)
     np.testing.assert_allclose(coarse.time, fine.time[::5], atol=1e-12)
     before = coarse.time < 0.35
@@ -78,8 +78,8 @@ def test_holding_the_torque_changes_little(worlds):
     np.testing.assert_allclose(tilt[0], tilt[1], atol=np.radians(0.2))
 
 
-def test_who_stops_one_batch_stops_the_other(worlds):
-    """Ten minutes of flight would take longer than anybody waits after Ctrl-C."""
+def test_an_interrupt_stops_all_batches(worlds):
+    """Ten minutes of flight would take much longer than the test allows."""
 
     def interrupt(_done: float) -> None:
         raise KeyboardInterrupt
@@ -108,17 +108,17 @@ def recording(filmed):
     return simulate(filmed, pose_rate=60.0)
 
 
-def test_mujoco_finds_the_recorded_centre_of_mass_in_each_pose(filmed, recording):
+def test_poses_have_the_recorded_centre_of_mass_in_mujoco(filmed, recording):
     for index, world in enumerate(filmed):
         poses, data = poses_of(recording, index, world), mujoco.MjData(world.model)
-        found = []
+        centres = []
         for qpos in poses.qpos:
             data.qpos[:] = qpos
             mujoco.mj_kinematics(world.model, data)
             mujoco.mj_comPos(world.model, data)
-            found.append(data.subtree_com[1].copy())
+            centres.append(data.subtree_com[1].copy())
         recorded = recording.com[: recording.lengths[index] : recording.pose_stride, index]
-        np.testing.assert_allclose(found, recorded, atol=1e-9)
+        np.testing.assert_allclose(centres, recorded, atol=1e-9)
 
 
 def test_poses_last_as_long_as_their_world(filmed, recording):
@@ -137,12 +137,12 @@ def test_the_recorded_attitude_is_that_of_the_trunks_body(filmed, recording):
         np.testing.assert_allclose(np.abs(np.sum(trunk * kept, axis=1)), 1.0, atol=1e-9)
 
 
-def test_wheels_turn_as_fast_as_recorded(filmed, recording):
+def test_wheel_angles_agree_with_the_recorded_speeds(filmed, recording):
     poses = poses_of(recording, 1, filmed[1])
     mean = np.diff(poses.wheel_angle, axis=0) / np.diff(poses.time)[:, None]
     speed = recording.wheel_speed[: recording.lengths[1] : recording.pose_stride, 1]
-    between = (speed[:-1] + speed[1:]) / 2.0
-    np.testing.assert_allclose(mean, between, atol=0.05 * np.abs(speed).max())
+    expected = (speed[:-1] + speed[1:]) / 2.0
+    np.testing.assert_allclose(mean, expected, atol=0.05 * np.abs(speed).max())
 
 
 def test_no_poses_are_recorded_unless_asked_for(worlds, together):
@@ -150,8 +150,8 @@ def test_no_poses_are_recorded_unless_asked_for(worlds, together):
     assert poses_of(together, 0, worlds[0]) is None
 
 
-def test_runs_carry_their_poses_of_control_steps(solo12):
-    """However many are wanted in a second, none is between two control steps."""
+def test_poses_of_runs_are_at_control_steps(solo12):
+    """Also where more poses per second are requested."""
     flights = Flights(
         solo12, paper_device(), paper_maneuvers(solo12)[1:2], options=Options(pose_rate=1e6)
     )

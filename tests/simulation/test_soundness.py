@@ -1,4 +1,4 @@
-"""Each thing that no simulation can be trusted with, planted."""
+"""Faults that make a simulation unreliable, planted one by one."""
 
 from dataclasses import replace
 
@@ -24,17 +24,17 @@ def drop(solo12):
 
 @pytest.fixture
 def world(builder, drop):
-    """A fresh one each time: its model is spoilt."""
+    """A new world for each test, because tests modify its model."""
     return builder.flight(drop, Wheels.ABSENT)
 
 
-def stiffened(world, factor: float):
+def with_stiff_drives(world, factor: float):
     world.model.actuator_gainprm[:, 0] *= factor
     world.model.actuator_biasprm[:, 1:3] *= factor
     return world
 
 
-def test_a_start_in_the_air_on_drives_from_physics_is_sound(world):
+def test_an_unmodified_world_is_sound(world):
     assert objection(world) == ""
     assert breakdown(simulate([replace(world, duration=0.02)]), 0) == ""
 
@@ -48,14 +48,14 @@ def test_a_drop_from_inside_the_floor_is_not_judged(solo12):
         assert "mm into the floor; release it that much higher" in run.reason
 
 
-def test_drives_too_stiff_for_the_step_are_found_before_they_are_run(world):
-    assert "drives are unstable at a time step of 1 ms" in objection(stiffened(world, 5.0))
+def test_drives_too_stiff_for_the_step_are_found_before_the_simulation(world):
+    assert "drives are unstable at a time step of 1 ms" in objection(with_stiff_drives(world, 5.0))
 
 
 @pytest.mark.parametrize("factor", [4.0, 5.0, 6.0])
 def test_growth_is_that_of_small_motions_in_mujoco(world, factor):
-    """In free flight: power iteration by the physics itself, from next to nothing."""
-    model, data = stiffened(world, factor).model, mujoco.MjData(world.model)
+    """In free flight: power iteration by MuJoCo's steps, from small random rates."""
+    model, data = with_stiff_drives(world, factor).model, mujoco.MjData(world.model)
     data.qpos[:], data.ctrl[:] = world.qpos, world.ctrl
     model.opt.gravity[:] = 0.0
     mujoco.mj_forward(model, data)
@@ -72,17 +72,17 @@ def test_growth_is_that_of_small_motions_in_mujoco(world, factor):
 
 
 def test_wheels_too_fast_for_the_step_are_not_judged(builder, drop):
-    """A hundred times as fast as they were made for, left to themselves."""
+    """A hundred times as fast as designed, without control."""
     world = builder.flight(drop, Wheels.ACTIVE)
     world.qvel[list(world.addresses.wheels)] = 8e4
     world = replace(world, law=WheelLaw.off(2))
-    found = measure(simulate([world]), 0, world)
-    verdict = judge(found, drop, can_stand=True)
+    metrics = measure(simulate([world]), 0, world)
+    verdict = judge(metrics, drop, can_stand=True)
     assert verdict.passed is None
     assert "lower `wheel_speed_max` for heavier, slower wheels" in verdict.reason
 
 
-def test_a_state_without_end_is_named(world):
+def test_an_infinite_state_is_reported(world):
     world.qvel[0] = 1e12
     recording = simulate([replace(world, duration=0.02)])
     assert not recording.stable[0]
@@ -92,7 +92,7 @@ def test_a_state_without_end_is_named(world):
     assert "the start is not finite" in objection(world)
 
 
-def test_a_state_without_end_is_found_at_every_control_rate(world):
-    """With one step of the physics in each, MuJoCo starts anew each time and does not stop."""
+def test_an_infinite_state_is_found_at_every_control_rate(world):
+    """With one step per control period MuJoCo resets the state each time and does not stop."""
     world.qvel[0] = np.inf
     assert not simulate([replace(world, duration=0.02)], hold=1).stable[0]

@@ -1,4 +1,4 @@
-"""A drive stops in flight: its wheel runs on, and the others take over what they can."""
+"""A drive stops in flight: its wheel runs on, and the others take over its torque."""
 
 from dataclasses import replace
 
@@ -22,82 +22,82 @@ TRIAD = Layout(LayoutName.TRIAD)
 
 
 @given(st.integers(2, 6), st.integers(0, 2**32 - 1))
-def test_the_others_give_the_same_torque_as_far_as_they_reach(wheels, seed):
+def test_the_others_give_the_same_torque_within_their_span(wheels, seed):
     rng = np.random.default_rng(seed)
     axes = rng.normal(size=(3, wheels))
     lost = int(rng.integers(wheels))
-    shared, asked = shared_by_others(axes, lost), rng.normal(size=wheels)
+    shared, torque = shared_by_others(axes, lost), rng.normal(size=wheels)
     assert not shared[lost].any()
-    left = np.delete(axes, lost, axis=1)
-    missed = axes @ asked - axes @ (shared @ asked)
-    # What is missing is across all that is left.
-    np.testing.assert_allclose(left.T @ missed, 0.0, rtol=0, atol=1e-9)
+    remaining = np.delete(axes, lost, axis=1)
+    difference = axes @ torque - axes @ (shared @ torque)
+    # The missing torque is perpendicular to all remaining axes.
+    np.testing.assert_allclose(remaining.T @ difference, 0.0, rtol=0, atol=1e-9)
     if wheels > 3:
-        np.testing.assert_allclose(missed, 0.0, rtol=0, atol=1e-9)
-    # Once more, or where that motor was not asked for anything, nothing changes.
-    np.testing.assert_allclose(shared @ (shared @ asked), shared @ asked, rtol=0, atol=1e-9)
+        np.testing.assert_allclose(difference, 0.0, rtol=0, atol=1e-9)
+    # Sharing again changes nothing.
+    np.testing.assert_allclose(shared @ (shared @ torque), shared @ torque, rtol=0, atol=1e-9)
 
 
-def test_a_shove_survives_on_its_feet_and_drives_stop_while_it_is_watched(solo12, monkeypatch):
+def test_a_shoved_robot_stays_level_when_drives_stop(solo12, monkeypatch):
     monkeypatch.setattr("ocs_design.simulation.scenario.STOPS", 2)
     shove = Shove(name="shove", torque=(0.2, 0.8, 0.0), duration=0.05, settling=0.5)
-    found = fly_stopped(Flights(solo12, layout_device(TRIAD), [shove]), 0.02)
-    assert len({each.instant for each in found.flights}) == 2
-    assert not found.lost
-    assert all(0.0 < each.tilt < np.radians(5.0) for each in found.flights)
+    stopped_flights = fly_stopped(Flights(solo12, layout_device(TRIAD), [shove]), 0.02)
+    assert len({flight.instant for flight in stopped_flights.flights}) == 2
+    assert not stopped_flights.lost
+    assert all(0.0 < flight.tilt < np.radians(5.0) for flight in stopped_flights.flights)
 
 
 @pytest.fixture(scope="module")
 def recorded(solo12):
-    """A drop, whole and with the wheel on pitch stopped a third of the way; 200 steps a second."""
+    """A drop without and with a stop of the pitch wheel at a third of its time; 200 steps/s."""
     builder = WorldBuilder(solo12, layout_device(TRIAD))
     drop = builder.flight(paper_maneuvers(solo12)[1], Wheels.ACTIVE)
     stops = StoppedDrive(0, 0.1, 0.02)
     return simulate([drop, replace(drop, stopped=stops)], threads=1)
 
 
-def test_its_motor_gives_nothing_and_its_wheel_runs_on(recorded):
-    last = round(0.1 / 0.005)
+def test_a_stopped_motor_gives_no_torque_and_its_wheel_runs_on(recorded):
+    stop = round(0.1 / 0.005)
     torque, speed = recorded.wheel_torque[:, 1], recorded.wheel_speed[:, 1, 0]
-    assert torque[:last, 0].all()
-    assert not torque[last:, 0].any()
-    assert abs(speed[last]) > 10.0
-    # Only the trunk, as it turns the other way, changes it.
-    flying = slice(last, last + 40)
-    held = speed[flying] + recorded.rate[flying, 1, 1]
-    np.testing.assert_allclose(held, held[0], rtol=1e-3)
+    assert torque[:stop, 0].all()
+    assert not torque[stop:, 0].any()
+    assert abs(speed[stop]) > 10.0
+    # The speed against an inertial frame stays; only the trunk turns.
+    flying = slice(stop, stop + 40)
+    inertial_speed = speed[flying] + recorded.rate[flying, 1, 1]
+    np.testing.assert_allclose(inertial_speed, inertial_speed[0], rtol=1e-3)
 
 
-def test_the_others_know_after_the_detection_and_not_before(recorded):
-    whole, stopped = np.moveaxis(recorded.wheel_torque[:, :, 1:], 1, 0)
-    last, known = round(0.1 / 0.005), round(0.12 / 0.005)
-    np.testing.assert_array_equal(whole[: last + 1], stopped[: last + 1])
-    before, after = (np.abs(stopped[k] - whole[k]).max() for k in (known - 1, known))
+def test_the_others_react_after_the_detection_time(recorded):
+    working, stopped = np.moveaxis(recorded.wheel_torque[:, :, 1:], 1, 0)
+    stop, detected = round(0.1 / 0.005), round(0.12 / 0.005)
+    np.testing.assert_array_equal(working[: stop + 1], stopped[: stop + 1])
+    before, after = (np.abs(stopped[k] - working[k]).max() for k in (detected - 1, detected))
     assert after > 2.0 * before
 
 
-def test_a_pilot_cannot_drive_what_has_stopped(solo12):
+def test_a_pilot_cannot_drive_a_stopped_wheel(solo12):
     drop = WorldBuilder(solo12, layout_device(TRIAD)).flight(
         paper_maneuvers(solo12)[1], Wheels.ACTIVE
     )
     flight = PilotedFlight(replace(drop, stopped=StoppedDrive(0, 0.02, 0.02)), hold=5)
     for _ in range(6):
         flight.fly(np.full(3, 0.1))
-    given = flight._record.wheel_torque[:6, 0]
-    np.testing.assert_allclose(given[:4], 0.1)
-    np.testing.assert_allclose(given[4:], [[0.0, 0.1, 0.1]] * 2)
+    torque = flight._record.wheel_torque[:6, 0]
+    np.testing.assert_allclose(torque[:4], 0.1)
+    np.testing.assert_allclose(torque[4:], [[0.0, 0.1, 0.1]] * 2)
 
 
 @pytest.mark.slow
 def test_every_drive_stops_at_every_instant_of_each_maneuver(solo12):
-    """Wheels that are twice as large as the paper's hold what one of them leaves."""
+    """Wheels with twice the paper's inertia can take over the momentum of one."""
     device = layout_device(TRIAD)
     wheel = replace(device.flywheel, spin_inertia=2.0 * device.flywheel.spin_inertia)
     drop = paper_maneuvers(solo12)[1]
-    found = fly_stopped(Flights(solo12, replace(device, flywheel=wheel), [drop]), 0.02)
-    assert len(found.flights) == 3 * STOPS
-    assert {each.module for each in found.flights} == {"1", "2", "3"}
-    assert found.worst in (found.lost or found.flights)
-    assert found.worst.tilt == max(each.tilt for each in found.lost or found.flights)
+    triad = fly_stopped(Flights(solo12, replace(device, flywheel=wheel), [drop]), 0.02)
+    assert len(triad.flights) == 3 * STOPS
+    assert {flight.module for flight in triad.flights} == {"1", "2", "3"}
+    assert triad.worst in (triad.lost or triad.flights)
+    assert triad.worst.tilt == max(flight.tilt for flight in triad.lost or triad.flights)
     pair = fly_stopped(Flights(solo12, layout_device(Layout()), [drop]), 0.02)
-    assert found.worst.tilt < pair.worst.tilt
+    assert triad.worst.tilt < pair.worst.tilt

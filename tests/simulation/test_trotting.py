@@ -1,4 +1,4 @@
-"""The trot's references against MuJoCo's own kinematics and statics, and what comes of them."""
+"""References of the trot against MuJoCo's kinematics and statics; shoves of a trotting robot."""
 
 from dataclasses import replace
 
@@ -32,8 +32,8 @@ def references(solo12):
 
 
 @pytest.fixture(scope="module")
-def posed(solo12, world, references):
-    """Feet under a level trunk [m], (k, legs, 3), and forces that the torques bear [N], alike."""
+def feet_and_forces(solo12, world, references):
+    """Feet under a level trunk [m] and forces on them by the torques [N], both (k, legs, 3)."""
     model = world.model
     data = mujoco.MjData(model)
     bodies = [model.body(solo12.tree.bodies[leg.body].name).id for leg in solo12.legs]
@@ -56,25 +56,25 @@ def posed(solo12, world, references):
     return np.reshape(feet, shape), np.reshape(forces, shape)
 
 
-def test_feet_lift_straight_up_and_as_high_as_told(posed):
-    feet, _ = posed
+def test_feet_lift_straight_up_by_the_step_height(feet_and_forces):
+    feet, _ = feet_and_forces
     moved = feet - feet[0]
     assert np.abs(moved[:, :, :2]).max() < 1e-5
     assert moved[:, :, 2].min() > -1e-9
     assert moved[:, :, 2].max(axis=0) == pytest.approx([STEP_HEIGHT] * 4, rel=0.02)
 
 
-def test_diagonal_feet_lift_together_and_the_others_stand(posed):
-    lifted = posed[0][:, :, 2] - posed[0][0, :, 2]
-    feet = posed[0][0]
+def test_diagonal_feet_lift_together_and_the_others_stand(feet_and_forces):
+    lifted = feet_and_forces[0][:, :, 2] - feet_and_forces[0][0, :, 2]
+    feet = feet_and_forces[0][0]
     first = feet[:, 0] * feet[:, 1] > 0.0
     np.testing.assert_allclose(np.ptp(lifted[:, first], axis=1), 0.0, atol=1e-9)
     np.testing.assert_allclose(np.ptp(lifted[:, ~first], axis=1), 0.0, atol=1e-9)
     assert np.minimum(lifted[:, first][:, 0], lifted[:, ~first][:, 0]).max() < 1e-9
 
 
-def test_the_torques_bear_the_weight_on_the_feet_that_stand(posed):
-    feet, forces = posed
+def test_the_torques_carry_the_weight_on_the_standing_feet(feet_and_forces):
+    feet, forces = feet_and_forces
     np.testing.assert_allclose(forces[:, :, 2].sum(axis=1), WEIGHT, rtol=1e-3)
     assert np.abs(forces[:, :, :2]).max() < 0.02 * WEIGHT
     lifted = feet[:, :, 2] - feet[0, :, 2] > 0.5 * STEP_HEIGHT
@@ -83,7 +83,7 @@ def test_the_torques_bear_the_weight_on_the_feet_that_stand(posed):
 
 
 @pytest.mark.parametrize("earliest", [0.0, 0.31, 3.0])
-def test_the_shove_comes_as_two_feet_lift(solo12, earliest):
+def test_the_shove_starts_when_two_feet_lift(solo12, earliest):
     instant = shoved_at(STRIDE, earliest)
     assert earliest <= instant < earliest + STRIDE
     references = trot(solo12, STRIDE, start=1e-3, duration=instant + 0.1, weight=WEIGHT)
@@ -94,14 +94,14 @@ def test_the_shove_comes_as_two_feet_lift(solo12, earliest):
 
 
 @pytest.mark.slow
-def test_a_robot_that_trots_is_shoved_and_calmed(solo12, world):
+def test_the_device_reduces_the_swing_of_a_trotting_robot(solo12, world):
     with_device, without = run_scenarios(Flights(solo12, paper_device(), [SHOVE]))
     assert [with_device.passed, without.passed] == [True, True]
     assert with_device.metrics.pitch_swing < 0.9 * without.metrics.pitch_swing
     assert world.stands == shoved_at(STRIDE, 3.0)
 
 
-def test_its_feet_leave_the_floor(solo12, world):
+def test_feet_leave_the_floor(solo12, world):
     recording = simulate([world], pose_rate=200.0)
     data, feet = mujoco.MjData(world.model), []
     bodies = [world.model.body(solo12.tree.bodies[leg.body].name).id for leg in solo12.legs]
@@ -116,9 +116,9 @@ def test_its_feet_leave_the_floor(solo12, world):
     assert np.all(np.ptp(height, axis=0) > 0.7 * STEP_HEIGHT)
 
 
-def test_a_biped_is_told_that_it_cannot_before_it_is_sized():
+def test_a_biped_cannot_trot():
     bolt = read_robot(ROBOTS / "bolt_description" / "robots" / "bolt.urdf")
-    with pytest.raises(SpecificationError, match="bolt cannot trot: it does not have") as told:
+    with pytest.raises(SpecificationError, match="bolt cannot trot: it does not have") as refused:
         require_trot([SHOVE], bolt)
-    assert "`stride`" in told.value.hint
+    assert "`stride`" in refused.value.hint
     require_trot([replace(SHOVE, stride=0.0)], bolt)

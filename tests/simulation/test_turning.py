@@ -1,4 +1,4 @@
-"""Turns to any attitude flown in MuJoCo: by two wheels too, which reach no heading directly."""
+"""Turns to any attitude in MuJoCo, also by two wheels, which cannot turn the heading directly."""
 
 from dataclasses import replace
 
@@ -19,25 +19,25 @@ pytestmark = pytest.mark.slow
 
 MOON = 1.62
 YAW = TurnTo(name="yaw", yaw=np.pi / 2.0, duration=2.9, gravity=MOON, jump_height=1.9)
-AND_PITCH = TurnTo(
+YAW_AND_PITCH = TurnTo(
     name="both", yaw=-np.pi / 4.0, pitch=0.3, duration=2.5, gravity=MOON, jump_height=1.4
 )
-LEVELLED = Catch(name="catch", rate=(0.4, 0.8, 0.1), duration=0.6, jump_height=0.5)
-STOPPED = replace(LEVELLED, name="stop", end="at rest")
+LEVEL = Catch(name="catch", rate=(0.4, 0.8, 0.1), duration=0.6, jump_height=0.5)
+STOP = replace(LEVEL, name="stop", end="at rest")
 
 
 @pytest.fixture(scope="module")
 def flown(solo12):
-    maneuvers = (YAW, AND_PITCH, LEVELLED, STOPPED)
+    maneuvers = (YAW, YAW_AND_PITCH, LEVEL, STOP)
     device = driven_device()
-    found = plan(solo12.mass_properties, device, maneuvers, standing_height(solo12))
-    references = {name: each.trajectory for name, each in found.items()}
+    plans = plan(solo12.mass_properties, device, maneuvers, standing_height(solo12))
+    references = {name: reference.trajectory for name, reference in plans.items()}
     runs = run_scenarios(Flights(solo12, device, maneuvers, references=references))
-    return found, {run.scenario: run for run in runs if run.ocs}
+    return plans, {run.scenario: run for run in runs if run.ocs}
 
 
-def test_two_wheels_turn_the_robot_round(flown):
-    """Ninety degrees on the Moon; the legs are held by drives, so a degree is asked for."""
+def test_two_wheels_turn_the_heading(flown):
+    """90 degrees on the Moon; the legs move a little on their drives."""
     _, runs = flown
     assert runs["yaw"].passed, runs["yaw"].reason
     assert "heading turned by 90.0 deg" in runs["yaw"].reason
@@ -51,24 +51,24 @@ def test_heading_and_pitch_together_end_at_the_attitude(flown):
     metrics = runs["both"].metrics
     assert runs["both"].passed, runs["both"].reason
     ends = metrics.touchdown_roll, metrics.touchdown_pitch, metrics.heading_drift
-    np.testing.assert_allclose(ends, landing_attitude(AND_PITCH), rtol=0, atol=np.radians(0.5))
+    np.testing.assert_allclose(ends, landing_attitude(YAW_AND_PITCH), rtol=0, atol=np.radians(0.5))
 
 
 def test_a_robot_that_turns_at_lift_off_is_levelled_or_stopped(flown):
-    found, runs = flown
+    plans, runs = flown
     assert runs["catch"].passed
     assert runs["stop"].passed
     assert abs(runs["catch"].metrics.touchdown_pitch) < np.radians(0.3)
     assert runs["stop"].metrics.touchdown_pitch > np.radians(5.0)
-    assert found["catch"].trajectory.gains is None
-    assert found["stop"].trajectory.gains.shape[1:] == (2, 8)
+    assert plans["catch"].trajectory.gains is None
+    assert plans["stop"].trajectory.gains.shape[1:] == (2, 8)
 
 
-def test_the_regulator_corrects_what_the_tilt_law_cannot(solo12, flown):
-    """Rates at lift-off bend the loop; only gains that know where it is put the heading right."""
-    found, _ = flown
+def test_the_regulator_corrects_the_heading(solo12, flown):
+    """Rates at lift-off distort the motion; only the time-varying gains correct the heading."""
+    plans, _ = flown
     pushed = replace(YAW, rate=(0.04, -0.04, 0.0))
-    trajectory = found["yaw"].trajectory
+    trajectory = plans["yaw"].trajectory
     errors = []
     for gains in (trajectory.gains, None):
         tracked = {"yaw": replace(trajectory, gains=gains)}
@@ -78,15 +78,15 @@ def test_the_regulator_corrects_what_the_tilt_law_cannot(solo12, flown):
     assert errors[1] > 2.5
 
 
-def test_a_turn_that_was_not_made_fails(solo12):
+def test_a_turn_without_a_plan_fails(solo12):
     run = run_scenarios(Flights(solo12, driven_device(), [YAW]))[0]
     assert run.passed is False
     assert run.reason == "touches down with its heading turned by 0.0 of 90.0 deg"
 
 
 def test_a_catch_starts_with_the_momentum_of_its_rate(solo12):
-    """MuJoCo's own angular momentum about the centre of mass, wheels spun up beforehand."""
-    spun = replace(LEVELLED, wheel_speed=100.0)
+    """MuJoCo's angular momentum about the centre of mass, with wheels spun up beforehand."""
+    spun = replace(LEVEL, wheel_speed=100.0)
     world = WorldBuilder(solo12, driven_device()).flight(spun, Wheels.ACTIVE)
     data = mujoco.MjData(world.model)
     data.qpos[:], data.qvel[:] = world.qpos, world.qvel

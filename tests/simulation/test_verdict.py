@@ -66,23 +66,23 @@ def test_pass_rule(metrics, maneuver, can_stand, passed, reason):
     assert comes_down_well(metrics, maneuver) is (without_legs.passed is True)
 
 
-def test_a_turn_to_an_attitude_is_told_by_how_much_it_misses_it():
-    """Roll and pitch of the vertical are not the angles that it was asked for by."""
-    asked = TurnTo(name="turn", gravity=0.0, roll=0.7, pitch=-0.5, duration=2.0)
-    roll, pitch, heading = landing_attitude(asked)
+def test_a_turn_to_an_attitude_reports_the_error_of_the_vertical():
+    """Roll and pitch of the vertical differ from the angles of the maneuver."""
+    maneuver = TurnTo(name="turn", gravity=0.0, roll=0.7, pitch=-0.5, duration=2.0)
+    roll, pitch, heading = landing_attitude(maneuver)
     assert (roll, pitch) != (0.7, -0.5)
     flown = replace(GOOD, touchdown_roll=roll, touchdown_pitch=pitch, heading_drift=heading)
-    assert "its vertical 0.0 deg off what is asked" in judge(flown, asked, can_stand=None).reason
-    off = replace(flown, touchdown_pitch=pitch + 0.05)
-    assert "deg off what is asked" in judge(off, asked, can_stand=None).reason
+    assert "its vertical 0.0 deg off what is asked" in judge(flown, maneuver, can_stand=None).reason
+    missed = replace(flown, touchdown_pitch=pitch + 0.05)
+    assert "deg off what is asked" in judge(missed, maneuver, can_stand=None).reason
 
 
-def test_a_biped_is_told_why_its_legs_do_not_stand():
+def test_a_biped_has_a_reason_why_it_does_not_stand():
     reason = judge(FALLEN, DROP, can_stand=False, legs=2).reason
     assert "even if level, since a robot on fewer than three feet must step" in reason
 
 
-def test_a_robot_that_topples_slowly_does_not_count_as_standing():
+def test_a_robot_that_topples_slowly_does_not_stand():
     assert stands(GOOD)
     assert not stands(replace(GOOD, final_pitch=np.radians(30.0)))
     assert not stands(FALLEN)

@@ -1,4 +1,4 @@
-"""MuJoCo Warp against MuJoCo, on Warp's processor: the same kernels as on a GPU, without one."""
+"""MuJoCo Warp against MuJoCo, on Warp's CPU device, which runs the kernels of a GPU."""
 
 import sys
 from contextlib import nullcontext
@@ -28,7 +28,7 @@ COUNT, STEPS = 6, 10
 SPREAD = UncertaintySection(
     mass_error=Normal(0.0, 0.1), com_error=Normal(0.0, 0.01), inertia_error=Normal(0.0, 0.1)
 )
-"""So wide that a world with the parameters of another one is far off."""
+"""So wide that worlds with the parameters of other ones differ clearly."""
 
 
 @pytest.fixture(scope="module")
@@ -44,7 +44,7 @@ def campaign(solo12):
 
 @pytest.fixture(scope="module")
 def flying(campaign):
-    """Robots that are let fall, as they were built, and what is done to each in each step."""
+    """Models of falling robots, their start states, and controls and wrenches of each step."""
     worlds = [campaign.built(campaign.sample(index), 1) for index in range(COUNT)]
     model, random = worlds[0].model, np.random.default_rng(3)
     commands = np.stack([world.ctrl for world in worlds])[:, None].repeat(STEPS, 1)
@@ -56,7 +56,7 @@ def flying(campaign):
 
 
 def stepped(physics, models, start, control):
-    """States after each step and sensors before, by some physics."""
+    """States after each step and sensors before it, by some physics engine."""
     kind, pushed = mujoco.mjtState, control.shape[2] > models[0].nu
     bits = kind.mjSTATE_CTRL.value | (kind.mjSTATE_XFRC_APPLIED.value if pushed else 0)
     states = np.empty((len(models), STEPS, start.shape[1]))
@@ -75,14 +75,14 @@ def stepped(physics, models, start, control):
     return states, sensors
 
 
-def off(found, expected):
-    """Largest difference, in units of the largest value of each column."""
+def largest_difference(actual, expected):
+    """Largest difference, relative to the largest value of each column."""
     scale = np.maximum(np.abs(expected).max(axis=(0, 1)), 1e-3)
-    return (np.abs(found - expected) / scale).max()
+    return (np.abs(actual - expected) / scale).max()
 
 
 TOLERANCE = 1e-5
-"""Forty stages round by 2^-24 each, 2.4e-6 together; the sums in each make it a few times that."""
+"""Forty stages with rounding errors of 2^-24 give 2.4e-6, and sums within them a few times that."""
 
 
 @pytest.mark.slow
@@ -92,41 +92,44 @@ def test_every_world_has_its_own_parameters_commands_and_pushes(engine, flying, 
     control = control if pushed else np.ascontiguousarray(control[..., : models[0].nu])
     with Rollout(nthread=0) as pool, engine.physics() as physics:
         states, sensors = stepped(pool, models, start, control)
-        found = stepped(physics, models, start, control)
-        assert off(found[0], states) < TOLERANCE
-        assert off(found[1], sensors) < TOLERANCE
-        # Fewer worlds, later: those that are left go on from where they are put.
-        some = stepped(physics, models[:2], states[:2, -1], control[:2])
-        assert off(some[0], stepped(pool, models[:2], states[:2, -1], control[:2])[0]) < TOLERANCE
-        # All of this shows: with what another world has, each is off by a hundred times as much.
+        single = stepped(physics, models, start, control)
+        assert largest_difference(single[0], states) < TOLERANCE
+        assert largest_difference(single[1], sensors) < TOLERANCE
+        # Fewer worlds, later: the remaining ones continue from the given states.
+        fewer = stepped(physics, models[:2], states[:2, -1], control[:2])
+        assert (
+            largest_difference(fewer[0], stepped(pool, models[:2], states[:2, -1], control[:2])[0])
+            < TOLERANCE
+        )
+        # With parameters or controls of another world the difference is a hundred times as large.
         for other in (
             stepped(pool, models[:1] * COUNT, start, control),
             stepped(pool, models, start, np.roll(control, 1, axis=0)),
             stepped(pool, models, start, np.roll(control, 1, axis=1)),
         ):
-            assert off(other[0], states) > 100 * TOLERANCE
+            assert largest_difference(other[0], states) > 100 * TOLERANCE
 
 
 @pytest.mark.slow
 def test_a_sample_ends_as_with_mujoco(engine, campaign):
-    """Cut off at different times, after the landing of those that fall."""
+    """The worlds end at different times, each after its landing."""
     jump, drop = campaign.flights
     drop = replace(drop, world=replace(drop.world, duration=0.7))
     campaign = replace(campaign, flights=(jump, drop))
     expected = fly_samples(campaign, range(3))
     single = replace(campaign, engine=engine)
-    found = fly_samples(single, range(3))
-    np.testing.assert_array_equal(found.codes, expected.codes)
+    actual = fly_samples(single, range(3))
+    np.testing.assert_array_equal(actual.codes, expected.codes)
     for name in ("touchdown_pitch", "touchdown_roll", "turned_angle"):
-        np.testing.assert_allclose(found.metric(name), expected.metric(name), atol=1e-5)
-    assert found.metric("momentum_error").max() < SINGLE_GATE
-    # Nobody's numbers depend on who flies along.
+        np.testing.assert_allclose(actual.metric(name), expected.metric(name), atol=1e-5)
+    assert actual.metric("momentum_error").max() < SINGLE_GATE
+    # The results do not depend on the other worlds.
     alone = fly_samples(single, [2])
-    np.testing.assert_array_equal(alone.metrics[0], found.metrics[2])
+    np.testing.assert_array_equal(alone.metrics[0], actual.metrics[2])
 
 
 @pytest.mark.slow
-def test_what_it_cannot_have_for_each_world_is_refused(engine, flying):
+def test_fields_that_cannot_differ_between_worlds_are_refused(engine, flying):
     models, start, control = flying
     other = copy(models[1])
     other.actuator_ctrllimited[:] = 1 - other.actuator_ctrllimited
@@ -134,7 +137,7 @@ def test_what_it_cannot_have_for_each_world_is_refused(engine, flying):
         stepped(physics, [models[0], other, *models[2:]], start, control)
 
 
-def test_a_pivot_which_weighs_ten_million_robots_is_refused():
+def test_maneuvers_about_a_pivot_are_refused():
     builder = WorldBuilder(robot_by_hand(2.5, (0.02, 0.025, 0.02)), driven_device())
     tilted = Balance(name="tilted", pivot=(0.0, 0.0, -0.2), roll=0.03, duration=1.0)
     world = builder.flight(tilted, Wheels.ACTIVE)
@@ -147,8 +150,8 @@ def test_a_pivot_which_weighs_ten_million_robots_is_refused():
         stepped(physics, [world.model], start, control)
 
 
-def test_there_is_room_for_all_contacts_that_can_be(campaign):
-    """Lying on the floor with everything at once: no robot touches more of it."""
+def test_there_is_room_for_all_possible_contacts(campaign):
+    """With a margin of 10 m every geom is in contact with the floor at once."""
     model = campaign.flights[0].world.model
     data = mujoco.MjData(model)
     model.geom_margin[:] = 10.0
@@ -158,8 +161,8 @@ def test_there_is_room_for_all_contacts_that_can_be(campaign):
     assert data.nefc <= rows
 
 
-def test_a_momentum_gate_of_its_own_judges_it(campaign):
-    """That of double precision stays what it is for all others."""
+def test_the_engine_has_its_own_momentum_tolerance(campaign):
+    """The tolerance of double precision still applies to other engines."""
     expected = fly_samples(campaign, [0], threads=1)
     metrics = replace(metrics_of(expected, 0, 1), momentum_error=0.5 * SINGLE_GATE)
     assert campaign.judged(metrics, 1).fault is Fault.UNSOUND
@@ -169,14 +172,14 @@ def test_a_momentum_gate_of_its_own_judges_it(campaign):
     assert single.judged(worse, 1).fault is Fault.UNSOUND
 
 
-def test_without_the_package_the_command_that_installs_it_is_named(monkeypatch):
+def test_without_the_package_the_hint_is_the_command_that_installs_it(monkeypatch):
     monkeypatch.setitem(sys.modules, "warp", None)
     with pytest.raises(MissingToolError, match="not installed") as error:
         warp_engine()
     assert "ocs-design[gpu]" in error.value.hint
 
 
-def test_without_a_gpu_it_says_so(monkeypatch):
+def test_without_a_gpu_the_error_says_so(monkeypatch):
     warp = SimpleNamespace(
         config=SimpleNamespace(), LOG_WARNING=30, is_cuda_available=lambda: False
     )

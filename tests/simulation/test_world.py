@@ -1,4 +1,4 @@
-"""A maneuver's world: its masses, its start, its settings, and how the trunk is told."""
+"""The world of a maneuver: masses, start, settings, and attitude of the trunk."""
 
 from dataclasses import replace
 
@@ -39,34 +39,39 @@ def maneuvers(solo12):
     return paper_maneuvers(solo12)
 
 
-def placed(world):
+def data_at_start(world):
     data = mujoco.MjData(world.model)
     data.qpos[:], data.qvel[:] = world.qpos, world.qvel
     mujoco.mj_forward(world.model, data)
     return data
 
 
-def test_the_law_believes_in_robot_rims_and_carriers(solo12, device, any_builder, maneuvers):
-    """Those of a flip are turned by hand, and their carriers turn along."""
+def test_the_law_uses_the_inertia_of_robot_rims_and_carriers(
+    solo12, device, any_builder, maneuvers
+):
+    """For a flip the modules are turned by hand, with their carriers."""
     spin = device.flywheel.spin_inertia
-    for maneuver, placed_so in ((maneuvers[0], device), (maneuvers[2], device.at_incidence(0.0))):
+    for maneuver, turned_device in (
+        (maneuvers[0], device),
+        (maneuvers[2], device.at_incidence(0.0)),
+    ):
         body = any_builder.flight(maneuver, Wheels.ACTIVE).body
-        expected = braked_inertia(solo12, placed_so).inertia
+        expected = braked_inertia(solo12, turned_device).inertia
         np.testing.assert_allclose(body.inertia, expected, rtol=0, atol=1e-9 * np.trace(expected))
         reacting = spin**2 / (spin + device.motor.armature)
-        actuated = expected - reacting * placed_so.axes @ placed_so.axes.T
+        actuated = expected - reacting * turned_device.axes @ turned_device.axes.T
         np.testing.assert_allclose(body.actuated_inertia, actuated, atol=1e-9)
         assert (body.spin_inertia, body.armature) == (spin, device.motor.armature)
 
 
 def test_absent_wheels_leave_exactly_the_bare_robot(solo12, builder, maneuvers):
-    """Against a model that has no wheels at all, through the flight and the landing."""
+    """Compared with a model without wheels, through flight and landing."""
     drop = maneuvers[1]
     world = builder.flight(drop, Wheels.ABSENT)
     scene = robot_scene(solo12)
     scene.option.gravity = [0.0, 0.0, -drop.gravity]
     bare = scene.compile()
-    data, without = placed(world), mujoco.MjData(bare)
+    data, without = data_at_start(world), mujoco.MjData(bare)
     assert bare.nv == world.model.nv - 2
     without.qpos[:] = world.qpos[: bare.nq]
     mujoco.mj_forward(bare, without)
@@ -81,28 +86,28 @@ def test_absent_wheels_leave_exactly_the_bare_robot(solo12, builder, maneuvers):
 
 
 @pytest.mark.parametrize("name", DEVICES)
-def test_of_what_is_absent_nothing_weighs_anything(solo12, name, maneuvers):
-    """Neither wheels nor motors, nor what holds them on the trunk."""
+def test_an_absent_device_has_no_mass(solo12, name, maneuvers):
+    """Neither wheels nor motors, nor their carriers and plates."""
     model = WorldBuilder(solo12, DEVICES[name]).flight(maneuvers[1], Wheels.ABSENT).model
     assert model.body_subtreemass[1] == pytest.approx(solo12.mass, rel=1e-8)
 
 
-def test_all_worlds_fit_the_same_working_memory(any_builder, maneuvers):
-    """MuJoCo's rollout runs them in one MjData and checks only a few of these."""
+def test_all_worlds_have_the_same_sizes(any_builder, maneuvers):
+    """MuJoCo's rollout runs them in one MjData and checks only a few of these sizes."""
     models = [
         any_builder.flight(maneuver, wheels).model for maneuver in maneuvers for wheels in Wheels
     ]
-    found = [name for name in dir(models[0]) if name.startswith("n")]
-    sizes = [name for name in found if isinstance(getattr(models[0], name), int)]
+    names = [name for name in dir(models[0]) if name.startswith("n")]
+    sizes = [name for name in names if isinstance(getattr(models[0], name), int)]
     assert {"nv", "nbvh", "ngeom", "nC", "nD"} <= set(sizes)
     for name in sizes:
         assert len({getattr(model, name) for model in models}) == 1, name
 
 
 def test_braked_wheels_are_part_of_the_trunk(any_builder, maneuvers):
-    """The brake is on the joint, whatever armature the motor has."""
+    """For any armature of the motor, since the brake acts on the joint."""
     world = any_builder.flight(maneuvers[0], Wheels.BRAKED)
-    data = placed(world)
+    data = data_at_start(world)
     data.qvel[3:6] = (1.0, 2.0, -0.5)
     data.ctrl[:] = world.ctrl
     mujoco.mj_step(world.model, data, 300)
@@ -112,7 +117,7 @@ def test_braked_wheels_are_part_of_the_trunk(any_builder, maneuvers):
 def test_jumps_start_level_with_the_feet_just_clear(builder, maneuvers):
     for maneuver in (maneuvers[0], maneuvers[2]):
         world = builder.flight(maneuver, Wheels.ACTIVE)
-        data = placed(world)
+        data = data_at_start(world)
         assert data.ncon == 0
         assert 0.0 < lowest_point(world.model, data) < 1e-3
         np.testing.assert_allclose(world.qpos[3:7], (1.0, 0.0, 0.0, 0.0), atol=1e-12)
@@ -154,21 +159,21 @@ def test_gains_scale_with_the_froude_time(solo12):
     assert larger.damping == pytest.approx(gains.damping / 2.0, rel=1e-5)
 
 
-@pytest.mark.parametrize("held", [True, False])
-def test_legs_that_are_told_their_load_stand_as_they_should(held):
-    """A1 sinks by a quarter and leans by 12 deg where its drives hold the posture alone."""
+@pytest.mark.parametrize("supported", [True, False])
+def test_feed_forward_of_the_load_keeps_a_robot_level(supported):
+    """Without it A1 sinks by a quarter and leans by 12 deg."""
     robot = read_robot(ROBOTS / "a1_description" / "urdf" / "a1.urdf")
     drop = Drop(name="drop", height=1.01 * robot.standing_height, pitch=0.0)
     world = WorldBuilder(robot, paper_device()).flight(drop, Wheels.BRAKED, level=True)
-    world = world if held else replace(world, support=0.0 * world.support)
+    world = world if supported else replace(world, support=0.0 * world.support)
     metrics = measure(simulate([world]), 0, world)
     leans = abs(metrics.final_pitch) > np.radians(5.0)
-    assert leans is not held
-    if held:
+    assert leans is not supported
+    if supported:
         assert abs(metrics.final_pitch) < np.radians(1.0)
 
 
-def test_limits_are_told_only_of_motors_that_run_and_have_some(solo12, builder, maneuvers):
+def test_limits_are_recorded_only_of_active_motors_that_have_some(solo12, builder, maneuvers):
     drop, geared_builder = maneuvers[1], WorldBuilder(solo12, GEARED)
     assert geared_builder.flight(drop, Wheels.ACTIVE).limits is not None
     assert geared_builder.flight(drop, Wheels.ABSENT).limits is None
@@ -188,7 +193,7 @@ TALOS = ROBOTS / "talos_data" / "robots" / "talos_full_v2.urdf"
     ("path", "trunk", "hinges"),
     [(SOLO12, "base_link", 0), (TALOS, "imu_link", 2), (TALOS, "base_link", 0)],
 )
-def test_attitude_and_rate_are_mujocos(path, trunk, hinges):
+def test_attitude_and_rate_are_those_of_mujoco(path, trunk, hinges):
     robot = read_robot(path, trunk=trunk)
     spec = build_spec(robot, visuals=False).spec
     body, frame = trunk_body(spec, robot)
@@ -202,8 +207,8 @@ def test_attitude_and_rate_are_mujocos(path, trunk, hinges):
     mujoco.mj_forward(model, data)
     expected = data.body(name).xmat.reshape(3, 3) @ frame.rotation
     qpos, qvel = data.qpos[None], data.qvel[None]
-    found = quaternions.matrix(chain.attitude(qpos))[0]
-    np.testing.assert_allclose(found, expected, atol=1e-12)
+    rotation = quaternions.matrix(chain.attitude(qpos))[0]
+    np.testing.assert_allclose(rotation, expected, atol=1e-12)
     velocity = np.empty(6)
     mujoco.mj_objectVelocity(
         model, data, mujoco.mjtObj.mjOBJ_XBODY, model.body(name).id, velocity, 0
@@ -221,14 +226,14 @@ OPTION = """<option iterations="1" ls_iterations="5" noslip_iterations="4" toler
 
 @pytest.fixture(scope="module")
 def compiled(solo12, tmp_path_factory):
-    """The scene of Solo12 as MJCF, and of the same file with settings of its own."""
+    """Scenes of Solo12 as MJCF, without and with options and defaults in the file."""
     text = build_spec(solo12, visuals=False).spec.to_xml()
     opened = text.index(">", text.index("<mujoco")) + 1
     folder = tmp_path_factory.mktemp("solo12")
     models = []
-    for more in ("", OPTION, DEFAULTS):
+    for settings in ("", OPTION, DEFAULTS):
         path = folder / "robot.xml"
-        path.write_text(text[:opened] + more + text[opened:])
+        path.write_text(text[:opened] + settings + text[opened:])
         mujoco.MjModel.from_xml_path(str(path))
         robot = read_robot(path, trunk=solo12.trunk)
         models.append(
@@ -238,7 +243,7 @@ def compiled(solo12, tmp_path_factory):
 
 
 @pytest.mark.parametrize("case", [1, 2], ids=["options", "defaults"])
-def test_settings_of_the_file_do_not_reach_the_simulation(compiled, case):
+def test_settings_of_the_file_do_not_affect_the_simulation(compiled, case):
     plain, other = compiled[0], compiled[case]
     assert plain.nu == other.nu > 0
     for name in dir(plain):
@@ -249,7 +254,7 @@ def test_settings_of_the_file_do_not_reach_the_simulation(compiled, case):
             np.testing.assert_array_equal(getattr(other.opt, name), getattr(plain.opt, name), name)
 
 
-def test_gravity_pulls_whatever_the_file_says(solo12, tmp_path):
+def test_gravity_compensation_of_the_file_is_off(solo12, tmp_path):
     text = build_spec(solo12, visuals=False).spec.to_xml()
     (path := tmp_path / "robot.xml").write_text(text.replace("<body ", '<body gravcomp="1" '))
     scene = robot_scene(read_robot(path, trunk=solo12.trunk))
