@@ -144,7 +144,7 @@ AsJson: TypeAlias = Annotated[
 Strict: TypeAlias = Annotated[bool, typer.Option("--strict", help="Treat warnings as errors.")]
 Quiet: TypeAlias = Annotated[bool, typer.Option("-q", "--quiet", help="Print only errors.")]
 NoColor: TypeAlias = Annotated[
-    bool, typer.Option("--no-color", help="No colour, as where NO_COLOR is set.")
+    bool, typer.Option("--no-color", help="No colour; NO_COLOR=1 does the same.")
 ]
 
 ROBOT_OPTIONS: Mapping[str, object] = {
@@ -329,7 +329,7 @@ SIZE_OPTIONS: Mapping[str, object] = {
     "co_design": _flag(
         "--co-design", "Optimize all dimensions together with the maneuvers, in 3-D."
     ),
-    "no_validate": _flag("--no-validate", "Do not simulate the maneuvers; halves the time."),
+    "no_validate": _flag("--no-validate", "Do not simulate the maneuvers."),
     "ballistic": Ballistic,
     "certify": Certify,
     "video": _flag("--video", "Film the flights with and without the device: MP4 or GIF."),
