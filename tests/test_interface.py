@@ -157,7 +157,7 @@ def test_progress_is_shown_below_the_cell_of_a_notebook(monkeypatch):
     monkeypatch.setattr(sys.modules["IPython"], "get_ipython", shell)
     monkeypatch.setattr(display, "display", lambda *_, **__: Handle())
     steps = Steps.of(None)
-    steps.doubt([f"link {i} is light" for i in range(5)])
+    steps.warn([f"link {i} is light" for i in range(5)])
     with steps.step("read") as step:
         step.update(0.5)
         step.note = "a\x1b[31mrobot"

@@ -25,7 +25,7 @@ from ocs_design.export.formats import (
     export_formats,
     formats_named,
 )
-from ocs_design.report.text.console import Steps, Tell
+from ocs_design.report.text.console import ProgressCallback, Steps
 from ocs_design.workflows.restoring import (
     Whereabouts,
     read_designed,
@@ -56,7 +56,7 @@ def export_design(
     package_paths: Mapping[str, AnyPath] | None = None,
     force: bool = False,
     strict: bool = False,
-    progress: Steps | Tell | None = None,
+    progress: Steps | ProgressCallback | None = None,
     command: str = "",
 ) -> Exported:
     """Write the files of a design again, or in other formats.

@@ -6,7 +6,7 @@ from dataclasses import replace
 from ocs_design.common.errors import Infeasible
 from ocs_design.common.files import AnyPath
 from ocs_design.device.answers import LayoutAnswer, LayoutsAnswer
-from ocs_design.report.text.console import Steps, Tell
+from ocs_design.report.text.console import ProgressCallback, Steps
 from ocs_design.requirement.reading import specification_of
 from ocs_design.requirement.resolving import read_specified_robot
 from ocs_design.requirement.specification import Specification
@@ -21,7 +21,7 @@ def compare_layouts(
     *,
     package_paths: Mapping[str, AnyPath] | None = None,
     strict: bool = False,
-    progress: Steps | Tell | None = None,
+    progress: Steps | ProgressCallback | None = None,
 ) -> LayoutsAnswer:
     """The lightest device of each layout, its momentum, and what is left after losing a wheel.
 

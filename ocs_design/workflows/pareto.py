@@ -11,7 +11,7 @@ from ocs_design.common.files import AnyPath
 from ocs_design.device.answers import Front
 from ocs_design.export.folder import check_target
 from ocs_design.report.charts.front import write_front
-from ocs_design.report.text.console import Steps, Tell
+from ocs_design.report.text.console import ProgressCallback, Steps
 from ocs_design.requirement.reading import specification_of
 from ocs_design.requirement.resolving import read_specified_robot
 from ocs_design.requirement.specification import Specification
@@ -32,7 +32,7 @@ def pareto_front(
     out: AnyPath | None = None,
     force: bool = False,
     strict: bool = False,
-    progress: Steps | Tell | None = None,
+    progress: Steps | ProgressCallback | None = None,
 ) -> Front:
     """Mass of the lightest device against time, angle, envelope or voltage, all else as specified.
 
@@ -58,7 +58,7 @@ def pareto_front(
     with steps.step("read the robot") as step:
         task = read_task(specification_of(design_for), package_paths=package_paths, strict=strict)
         step.note = task.robot.name
-    steps.doubt(task.robot.warnings)
+    steps.warn(task.robot.warnings)
     values = sweep.values(task, low=low, high=high, points=points)
     with steps.step(f"choose a device for each of {points} values") as step:
         front = draw_front(task, sweep, values, lightest_device, step.update)

@@ -23,7 +23,7 @@ from ocs_design.report.charts.svg import write_svgs
 from ocs_design.report.html.notebook import as_html
 from ocs_design.report.html.page import write_report
 from ocs_design.report.story import story_in
-from ocs_design.report.text.console import Steps, Tell
+from ocs_design.report.text.console import ProgressCallback, Steps
 from ocs_design.report.video import film_if_possible
 from ocs_design.requirement.froude import standing_height
 from ocs_design.requirement.reading import specification_of
@@ -94,7 +94,7 @@ def design_ocs(
     package_paths: Mapping[str, AnyPath] | None = None,
     force: bool = False,
     strict: bool = False,
-    progress: Steps | Tell | None = None,
+    progress: Steps | ProgressCallback | None = None,
     command: str = "",
     workers: WorkerPool | None = None,
 ) -> Outcome:
@@ -133,7 +133,7 @@ def design_ocs(
         check_target(folder, force=force)
         require_no_device(robot.tree.joints)
         step.note = f"{robot.name}: {len(robot.tree.joints)} joints, {len(robot.legs)} legs"
-    steps.doubt(robot.warnings)
+    steps.warn(robot.warnings)
     placed = size_or_advise(specification, robot, steps, strict=strict)
     placed = size_for_turns(placed, steps, strict=strict)
     start = partial(start_alternatives, call=(workers or WorkerPool()).call)

@@ -29,7 +29,7 @@ from ocs_design.monte_carlo.running import (
 )
 from ocs_design.monte_carlo.summary import summarised
 from ocs_design.report.html.notebook import as_html
-from ocs_design.report.text.console import Steps, Tell
+from ocs_design.report.text.console import ProgressCallback, Steps
 from ocs_design.requirement.sections import ValidationSection
 from ocs_design.requirement.specification import Specification, merge_section
 from ocs_design.requirement.vocabulary import RELIABILITY
@@ -170,7 +170,7 @@ def validate_design(
     force: bool = False,
     strict: bool = False,
     view: bool = False,
-    progress: Steps | Tell | None = None,
+    progress: Steps | ProgressCallback | None = None,
 ) -> Validation:
     """Fly a design with and without the device, and many times as sampled.
 
@@ -230,7 +230,7 @@ def validate_design(
             f"{replay}: belongs to another design than {flights.path}",
             hint="give the design that it was saved for, with the same wheel law",
         )
-    steps.doubt(flights.warnings)
+    steps.warn(flights.warnings)
     pose_rate = POSE_RATE if view else None
     runs = flights.fly(steps, pose_rate=pose_rate)
     found = Validated(

@@ -22,7 +22,7 @@ from ocs_design.report.flights import (
     jump_remark,
     short_verdict,
 )
-from ocs_design.report.text.front import NONE, OWN, print_front
+from ocs_design.report.text.front import NO_DEVICE_MARK, OWN_VALUE_MARK, print_front
 from ocs_design.requirement.boundary import End
 from ocs_design.requirement.turns import Drop, Flip, TurnTo
 from ocs_design.robot.stance import LANDING_TOLERANCE
@@ -202,10 +202,10 @@ def test_the_plot_falls_and_marks_what_has_no_device(front):
     assert len(firsts) > 8
     assert firsts == sorted(firsts)
     axis = re.search("└(.*)", text)[1].rstrip()
-    assert axis[0] == NONE
-    assert axis.count(NONE) == 1
+    assert axis[0] == NO_DEVICE_MARK
+    assert axis.count(NO_DEVICE_MARK) == 1
     # The own value is the third of nine: a quarter of the way.
-    assert axis.index(OWN) == pytest.approx(len(axis) / 4, abs=1)
+    assert axis.index(OWN_VALUE_MARK) == pytest.approx(len(axis) / 4, abs=1)
 
 
 def test_a_terminal_without_braille_gets_the_table_alone(front):

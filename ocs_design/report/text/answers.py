@@ -47,19 +47,19 @@ def print_layouts(console: Console, answer: LayoutsAnswer) -> None:
     lost = (f"{axis}, one lost [N m s]" for axis in ("roll", "pitch", "yaw"))
     rows = tuple(
         (
-            each.layout,
-            "-" if each.mass is None else f"{1e3 * each.mass:.0f}",
-            each.motor or "-",
-            ", ".join(each.survives) or "-",
-            *(f"{value:.3g}" for value in (*each.momentum, *each.momentum_without_one)),
+            option.layout,
+            "-" if option.mass is None else f"{1e3 * option.mass:.0f}",
+            option.motor or "-",
+            ", ".join(option.survives) or "-",
+            *(f"{value:.3g}" for value in (*option.momentum, *option.momentum_without_one)),
         )
-        for each in answer.layouts
+        for option in answer.layouts
     )
     names = ("<", "mass [g]", "<motor", "<survives one lost in", *axes, *lost)
     show(console, CellTable(columns(*names), rows))
-    for each in answer.layouts:
-        for text in (*each.open, *([each.without] if each.without else [])):
-            note(console, f"{each.layout}: {text}")
+    for option in answer.layouts:
+        for text in (*option.open, *([option.without] if option.without else [])):
+            note(console, f"{option.layout}: {text}")
 
 
 def print_initialized(console: Console, initialized: Initialized) -> None:
@@ -70,8 +70,8 @@ def print_initialized(console: Console, initialized: Initialized) -> None:
 def print_export(console: Console, exported: Exported) -> None:
     """Print the files by folder, and notes on them."""
     files_written(console, exported.folder, exported.files, "the design, unchanged")
-    for each in exported.notes:
-        note(console, each)
+    for remark in exported.notes:
+        note(console, remark)
 
 
 _TONES = {
@@ -87,18 +87,24 @@ def print_examination(console: Console, examination: Examination) -> None:
     _print_findings(console, "Machine", examination.machine)
     for title, required in (("Packages", True), ("Extras", False)):
         _print_findings(
-            console, title, (each for each in examination.packages if each.required is required)
+            console,
+            title,
+            (finding for finding in examination.packages if finding.required is required),
         )
-    lacking = [each for each in examination.findings if each.state is not State.WORKS]
-    optional = [each for each in lacking if not each.required and each.state is State.MISSING]
-    _print_cures(console, "To fix", (each for each in lacking if each not in optional))
+    not_working = [finding for finding in examination.findings if finding.state is not State.WORKS]
+    optional = [
+        finding
+        for finding in not_working
+        if not finding.required and finding.state is State.MISSING
+    ]
+    _print_cures(console, "To fix", (finding for finding in not_working if finding not in optional))
     _print_cures(console, "To add, if you need the feature", optional)
-    extras = dict.fromkeys(each.extra for each in optional if each.extra)
+    extras = dict.fromkeys(finding.extra for finding in optional if finding.extra)
     if len(extras) > 1:
         items(console, [f"all of these: {extra_command(*extras)}"], style="")
     console.print()
-    broken = [each.name for each in examination.findings if each.is_blocking]
-    verdict = f"does not work without {listed(broken)}" if broken else "works here"
+    blocking = [finding.name for finding in examination.findings if finding.is_blocking]
+    verdict = f"does not work without {listed(blocking)}" if blocking else "works here"
     console.print(Text(f"ocs-design {examination.version} {verdict}", style="bold"))
 
 
@@ -106,25 +112,25 @@ def _print_findings(console: Console, title: str, findings: Iterable[Finding]) -
     heads = columns(f"<{title}", "<state", "<found", "<wanted", "<for")
     rows = tuple(
         (
-            each.name,
-            Toned(each.state.value, _TONES[each.state]),
-            each.found,
-            each.wanted,
-            each.purpose,
+            finding.name,
+            Toned(finding.state.value, _TONES[finding.state]),
+            finding.found,
+            finding.wanted,
+            finding.purpose,
         )
-        for each in findings
+        for finding in findings
     )
     console.print()
     show(console, CellTable(heads, rows))
 
 
 def _print_cures(console: Console, title: str, findings: Iterable[Finding]) -> None:
-    names: dict[str, list[str]] = {}
-    for each in findings:
-        if each.cure:
-            reason = f" ({each.reason})" if each.reason else ""
-            names.setdefault(each.cure, []).append(each.name + reason)
-    cures = [f"{', '.join(which)}: {cure}" for cure, which in names.items()]
+    names_by_cure: dict[str, list[str]] = {}
+    for finding in findings:
+        if finding.cure:
+            reason = f" ({finding.reason})" if finding.reason else ""
+            names_by_cure.setdefault(finding.cure, []).append(finding.name + reason)
+    cures = [f"{', '.join(names)}: {cure}" for cure, names in names_by_cure.items()]
     if cures:
         heading(console, title)
         items(console, cures, style="")

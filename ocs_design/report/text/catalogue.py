@@ -54,8 +54,8 @@ class Listing:
         for row in self.rows:
             mounting = motor_mounting(row.mounting) if isinstance(row, Motor) else ""
             # Materials have no remarks.
-            said = (row.source, mounting, str(getattr(row, "remark", "")))
-            source = f"{row.name}: {'; '.join(filter(None, said))}" if verbose else row.source
+            remarks = (row.source, mounting, str(getattr(row, "remark", "")))
+            source = f"{row.name}: {'; '.join(filter(None, remarks))}" if verbose else row.source
             by_source.setdefault(source, []).append(row.name)
         items(
             console,
@@ -79,18 +79,18 @@ def listing(what: str, files: Mapping[str, str | None]) -> Listing:
     for kind, file in files.items():
         if file is not None and kind != what:
             raise UsageError(f"--{kind} has no effect on {what}", hint=f"try: catalogue {kind}")
-    given = files.get(what)
-    path = None if given is None else Path(given)
+    file = files.get(what)
+    path = None if file is None else Path(file)
     if what == "motors":
         motors = tuple(known_motors(path).values())
         doubts = () if path is None else motor_doubts(path)
-        written = motors_to_json(motors, doubts)
-        return Listing(motors, written, partial(print_motors, found=motors), doubts)
+        document = motors_to_json(motors, doubts)
+        return Listing(motors, document, partial(print_motors, motors=motors), doubts)
     if what == "gears":
         gears = tuple(known_gears(path).values())
-        return Listing(gears, gears_to_json(gears), partial(print_gears, found=gears))
-    found = tuple(materials().values())
-    return Listing(found, materials_to_json(), partial(print_materials, found=found))
+        return Listing(gears, gears_to_json(gears), partial(print_gears, sheets=gears))
+    rows = tuple(materials().values())
+    return Listing(rows, materials_to_json(), partial(print_materials, entries=rows))
 
 
 def motor_mounting(mounting: Mounting | None) -> str:
@@ -109,7 +109,7 @@ def motor_mounting(mounting: Mounting | None) -> str:
     return ", ".join(clauses)
 
 
-def print_motors(console: Console, found: Sequence[Motor]) -> None:
+def print_motors(console: Console, motors: Sequence[Motor]) -> None:
     """Print every motor with its key figures, the lightest first; then the missing data."""
     heading(console, "Motors")
     heads = columns(
@@ -125,23 +125,23 @@ def print_motors(console: Console, found: Sequence[Motor]) -> None:
             _figure(motor.torque_constant, "mN m", ".3g"),
             _first_gap(build_gaps(motor)),
         )
-        for motor in sorted(found, key=lambda motor: (motor.mass or math.inf, motor.name))
+        for motor in sorted(motors, key=lambda motor: (motor.mass or math.inf, motor.name))
     )
     show(console, CellTable(heads, rows))
     note(console, "+ k_t times the peak current   * stall torque, because no rating is given")
     heading(console, "Complete, by short-term torque")
     classes = []
-    for least, most in pairwise(TORQUE_CLASSES):
-        of_class = [motor for motor in found if least <= (motor.peak_torque or -1.0) < most]
+    for low, high in pairwise(TORQUE_CLASSES):
+        of_class = [motor for motor in motors if low <= (motor.peak_torque or -1.0) < high]
         complete = sum(not build_gaps(motor) for motor in of_class)
         if of_class:
-            limits = f"{least:g} to {most:g}" if most < math.inf else f"{least:g} and more"
+            limits = f"{low:g} to {high:g}" if high < math.inf else f"{low:g} and more"
             classes.append((limits, str(complete), str(len(of_class))))
     show(console, CellTable(columns("<peak [N m]", "complete", "motors"), tuple(classes)))
     note(console, "size chooses among complete motors; with --motors-any among all")
     # Data that the others lack for building: one line for each set of gaps.
     by_gaps: dict[tuple[str, ...], list[str]] = {}
-    for motor in found:
+    for motor in motors:
         by_gaps.setdefault(build_gaps(motor), []).append(motor.name)
     by_gaps.pop((), None)
     if by_gaps:
@@ -159,8 +159,8 @@ def _first_gap(gaps: Sequence[str]) -> str:
     """
     if not gaps:
         return "-"
-    first = re.split(r"[,:]", gaps[0])[0].replace(" of the", "").replace("bolt circle ", "")
-    return first if len(gaps) == 1 else f"{first} +{len(gaps) - 1}"
+    label = re.split(r"[,:]", gaps[0])[0].replace(" of the", "").replace("bolt circle ", "")
+    return label if len(gaps) == 1 else f"{label} +{len(gaps) - 1}"
 
 
 def _names_of(names: Sequence[str]) -> str:
@@ -168,7 +168,7 @@ def _names_of(names: Sequence[str]) -> str:
     return f"{len(names)} of the above" if len(names) > MOST_NAMES else ", ".join(names)
 
 
-def print_gears(console: Console, found: Sequence[GearSheet]) -> None:
+def print_gears(console: Console, sheets: Sequence[GearSheet]) -> None:
     """Print every stage of the gears; then the gears without one, and the data they lack."""
     heading(console, "Gears")
     figures = (
@@ -179,15 +179,15 @@ def print_gears(console: Console, found: Sequence[GearSheet]) -> None:
         ("motor [rpm]", "motor_speed_max", "rpm", ",.0f"),
         ("wheel [rpm]", "wheel_speed_max", "rpm", ",.0f"),
     )
-    show(console, _figures([gear for sheet in found for gear in sheet.stages()], figures))
+    show(console, _figure_table([gear for sheet in sheets for gear in sheet.stages()], figures))
     note(console, "ratio: motor speed over wheel speed. Without a gear it is 1: direct.")
-    lacking = [f"{sheet.name}: no {', '.join(sheet.missing)}" for sheet in found if sheet.missing]
+    lacking = [f"{sheet.name}: no {', '.join(sheet.missing)}" for sheet in sheets if sheet.missing]
     if lacking:
         heading(console, "Cannot be chosen")
         items(console, lacking)
 
 
-def print_materials(console: Console, found: Sequence[Material]) -> None:
+def print_materials(console: Console, entries: Sequence[Material]) -> None:
     """Print every material with its figures."""
     heading(console, "Materials")
     figures = (
@@ -196,22 +196,28 @@ def print_materials(console: Console, found: Sequence[Material]) -> None:
         ("ultimate [MPa]", "ultimate_strength", "MPa", ".0f"),
         ("Poisson", "poisson_ratio", "", ".2f"),
     )
-    show(console, _figures(found, figures))
+    show(console, _figure_table(entries, figures))
 
 
-def _figures(
-    found: Sequence[Gear | Material], figures: Sequence[tuple[str, str, str, str]]
+def _figure_table(
+    entries: Sequence[Gear | Material], figures: Sequence[tuple[str, str, str, str]]
 ) -> CellTable:
     """Table of names and figures; each figure is given as heading, attribute, unit and format."""
     rows = (
-        (row.name, *(_figure(getattr(row, name), unit, form) for _, name, unit, form in figures))
-        for row in found
+        (
+            row.name,
+            *(
+                _figure(getattr(row, name), unit, number_format)
+                for _, name, unit, number_format in figures
+            ),
+        )
+        for row in entries
     )
     return CellTable(columns("<name", *(head for head, *_ in figures)), tuple(rows))
 
 
-def _figure(value: float | None, unit: str, form: str) -> str:
+def _figure(value: float | None, unit: str, number_format: str) -> str:
     """SI value in `unit`, if any; a dash if it is unknown or unlimited."""
     if value is None or math.isinf(value):
         return "-"
-    return f"{to_unit(value, unit) if unit else value:{form}}"
+    return f"{to_unit(value, unit) if unit else value:{number_format}}"

@@ -22,21 +22,21 @@ PLOT_HEIGHT = 12
 """Rows of the plot's area."""
 
 MARGIN = 14
-"""Columns beside the plot's area, for the indent and the axis labels."""
+"""Columns beside the plot's area, for the indent and the labels of the axis."""
 
-OWN, NONE = "┴", "×"
+OWN_VALUE_MARK, NO_DEVICE_MARK = "┴", "×"
 """Marks on the plot's axis: the specification's own value, and a value without a device."""
 
 
 def print_front(console: Console, front: Front, folder: Path | None = None) -> None:
     """Print a front, and the place of its files if they were written."""
     heading(console, f"Lightest device against {front.label}: {front.robot}")
-    same = [f"{name} {value}" for name, value in _same(front).items()]
+    common = [f"{name} {value}" for name, value in _common_parts(front).items()]
     facts(
         console,
         [
             ("as specified", _value(front, front.own_value)),
-            *([("same for all", ", ".join(same))] if same else []),
+            *([("same for all", ", ".join(common))] if common else []),
         ],
     )
     items(console, front.remarks)
@@ -53,24 +53,24 @@ def print_front(console: Console, front: Front, folder: Path | None = None) -> N
         note(console, "-o DIR writes the specification of each point for `ocs-design size --spec`")
         return
     names = ", ".join(sorted(path.name for path in folder.glob("front.*")))
-    chosen = min(front.feasible or front.points, key=lambda p: abs(p.value - front.own_value))
-    command = shlex.join(["ocs-design", "size", "--spec", str(folder / chosen.file)])
-    facts(console, [("front", f"{folder}/: {names}"), (_value(front, chosen.value), command)])
+    nearest = min(front.feasible or front.points, key=lambda p: abs(p.value - front.own_value))
+    command = shlex.join(["ocs-design", "size", "--spec", str(folder / nearest.file)])
+    facts(console, [("front", f"{folder}/: {names}"), (_value(front, nearest.value), command)])
 
 
-def _same(front: Front) -> Mapping[str, str]:
+def _common_parts(front: Front) -> Mapping[str, str]:
     """Gear and material that all devices have in common."""
-    found = {
+    parts = {
         name: {getattr(point.device, name) for point in front.feasible}
         for name in ("gear", "material")
     }
-    return {name: values.pop() for name, values in found.items() if len(values) == 1}
+    return {name: values.pop() for name, values in parts.items() if len(values) == 1}
 
 
 def _table(front: Front) -> CellTable:
     """Mass, rim, incidence and drive at each value, or a note that there is no device."""
-    names = [name for name in ("motor", "gear", "material") if name not in _same(front)]
-    heads = columns(
+    names = [name for name in ("motor", "gear", "material") if name not in _common_parts(front)]
+    headings = columns(
         f" [{front.unit}]", "mass [g]", f"<{', '.join(names)}", "of robot [%]", "R [mm]", "r [mm]",
         "h [mm]", "alpha [deg]",
     )  # fmt: skip
@@ -78,7 +78,7 @@ def _table(front: Front) -> CellTable:
     for point in front.points:
         value, device = f"{to_unit(point.value, front.unit):.4g}", point.device
         if device is None:
-            texts = (value, "none", "see below", *[""] * (len(heads) - 3))
+            texts = (value, "none", "see below", *[""] * (len(headings) - 3))
             rows.append(tuple(Toned(text, Tone.PLAIN) for text in texts))
             continue
         lengths = (device.outer_radius, device.inner_radius, device.height)
@@ -92,7 +92,7 @@ def _table(front: Front) -> CellTable:
                 f"{np.degrees(device.incidence):.1f}",
             )
         )
-    return CellTable(heads, tuple(rows))
+    return CellTable(headings, tuple(rows))
 
 
 def _print_plot(console: Console, front: Front) -> None:
@@ -105,9 +105,9 @@ def _print_plot(console: Console, front: Front) -> None:
     masses = np.array([point.device.mass if point.device else np.nan for point in front.points])
     across, up = Axis.around("", "", values, room=0.0), Axis.around("", "", masses, room=0.05)
     plot = braille(across.parts(values), up.parts(masses), width, PLOT_HEIGHT)
-    marked = [(point.value, NONE) for point in front.points if point.device is None]
+    marked = [(point.value, NO_DEVICE_MARK) for point in front.points if point.device is None]
     if front.spans_own_value:
-        marked.append((front.own_value, OWN))
+        marked.append((front.own_value, OWN_VALUE_MARK))
     # Characters that contain the dots at these values.
     places = across.parts(np.array([value for value, _ in marked])) * (2 * width - 1)
     columns_of = (np.rint(places).astype(np.int64) // 2).tolist()
@@ -115,7 +115,7 @@ def _print_plot(console: Console, front: Front) -> None:
     ends = (_value(front, across.low), _value(front, across.high))
     rows = frame(plot, x_ends=ends, y_ends=(grams(up.low), grams(up.high)), marks=marks)
     console.print(Padding(Text("\n".join(rows), no_wrap=True), INDENT))
-    note(console, f"{OWN} as specified, {NONE} no device")
+    note(console, f"{OWN_VALUE_MARK} as specified, {NO_DEVICE_MARK} no device")
 
 
 def _value(front: Front, value: float) -> str:
@@ -133,13 +133,15 @@ def braille(x: FloatArray, y: FloatArray, width: int, height: int) -> list[str]:
     Coordinates are fractions of width and height, 0..1 from the lower left; NaN breaks the curve.
     """
     steps = np.linspace(0.0, 1.0, 4 * (width + height))[:, None]
-    right, up = (
-        np.concatenate([each, ((1.0 - steps) * each[:-1] + steps * each[1:]).ravel()])
-        for each in (x, y)
+    abscissas, heights = (
+        np.concatenate(
+            [coordinate, ((1.0 - steps) * coordinate[:-1] + steps * coordinate[1:]).ravel()]
+        )
+        for coordinate in (x, y)
     )
     columns, rows = (
-        np.rint(part[np.isfinite(up)] * (dots - 1)).astype(np.int64)
-        for part, dots in ((right, 2 * width), (1.0 - up, 4 * height))
+        np.rint(part[np.isfinite(heights)] * (resolution - 1)).astype(np.int64)
+        for part, resolution in ((abscissas, 2 * width), (1.0 - heights, 4 * height))
     )
     cells = np.full((height, width), _BLANK)
     np.bitwise_or.at(cells, (rows // 4, columns // 2), _DOTS[rows % 4, columns % 2])

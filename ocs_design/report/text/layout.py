@@ -19,10 +19,10 @@ from ocs_design.report.text.console import breaks_lines
 
 INDENT = (0, 0, 0, 2)
 
-_NARROWEST = 16
+_NARROWEST_COLUMN = 16
 """Minimum width of a column of words [characters]."""
 
-_PLAIN = box.Box("    \n    \n -- \n    \n    \n    \n    \n    \n", ascii=True)
+_ASCII_BOX = box.Box("    \n    \n -- \n    \n    \n    \n    \n    \n", ascii=True)
 """Rule below the headings of a table, in ASCII for pipes."""
 
 MOST_LISTED = 6
@@ -57,11 +57,11 @@ def warn(console: Console, warnings: Iterable[str]) -> None:
 
 def items(console: Console, texts: Iterable[str], *, style: str = "dim") -> None:
     """Print a list; wrapped lines stay indented after the dash."""
-    found = list(texts)
-    if not found:
+    entries = list(texts)
+    if not entries:
         return
     grid = rich_table.Table.grid(padding=(0, 1))
-    for text in found:
+    for text in entries:
         lines = wrapped(text, console.width - len("  - "))
         grid.add_row(Text("  -", style=style), Text(lines, style=style))
     console.print(grid)
@@ -69,12 +69,12 @@ def items(console: Console, texts: Iterable[str], *, style: str = "dim") -> None
 
 def facts(console: Console, rows: Iterable[tuple[str, str]]) -> None:
     """Print names and values in two columns."""
-    found = [(f"  {name}", value) for name, value in rows]
-    room = console.width - 2 - max((len(name) for name, _ in found), default=0)
+    entries = [(f"  {name}", value) for name, value in rows]
+    room = console.width - 2 - max((len(name) for name, _ in entries), default=0)
     grid = rich_table.Table.grid(padding=(0, 2))
     grid.add_column(no_wrap=True)
     grid.add_column(overflow="fold")
-    for name, value in found:
+    for name, value in entries:
         grid.add_row(Text(name, style="dim"), Text(wrapped(value, room)))
     console.print(grid)
 
@@ -89,55 +89,55 @@ def show(console: Console, table: CellTable, *, fewest: int = 0) -> None:
     room = console.width - INDENT[-1]
     for count in range(len(table.columns), 0, -1):
         shown = table.first(count)
-        drawn = _drawn(shown, console)
-        if _width(console, drawn) > room:
-            drawn.padding = (0, 1, 0, 0)
-        if _width(console, drawn) > room and count <= (fewest or count):
-            drawn = _drawn(_narrower(shown, _width(console, drawn) - room), console)
-            drawn.padding = (0, 1, 0, 0)
-        if _width(console, drawn) <= room:
+        rendered = _rendered(shown, console)
+        if _width(console, rendered) > room:
+            rendered.padding = (0, 1, 0, 0)
+        if _width(console, rendered) > room and count <= (fewest or count):
+            rendered = _rendered(_narrowed(shown, _width(console, rendered) - room), console)
+            rendered.padding = (0, 1, 0, 0)
+        if _width(console, rendered) <= room:
             break
-    console.print(Padding(drawn, INDENT))
-    gone = [column.name.replace("\n", " ") for column in table.columns[count:]]
-    if gone and not fewest:
-        note(console, f"The terminal is too narrow for {'; '.join(gone)}.")
+    console.print(Padding(rendered, INDENT))
+    omitted = [column.name.replace("\n", " ") for column in table.columns[count:]]
+    if omitted and not fewest:
+        note(console, f"The terminal is too narrow for {'; '.join(omitted)}.")
 
 
-def _drawn(table: CellTable, console: Console) -> rich_table.Table:
-    """Table of rich: names above units, words aligned left, numbers right."""
-    rule = box.SIMPLE_HEAD if breaks_lines(console) else _PLAIN
-    drawn = rich_table.Table(box=rule, pad_edge=False, show_edge=False, padding=(0, 1))
+def _rendered(table: CellTable, console: Console) -> rich_table.Table:
+    """Table of rich, with names above units, words aligned left and numbers right."""
+    rule = box.SIMPLE_HEAD if breaks_lines(console) else _ASCII_BOX
+    rendered = rich_table.Table(box=rule, pad_edge=False, show_edge=False, padding=(0, 1))
     lines = max(column.name.count("\n") for column in table.columns)
     for column in table.columns:
         name = column.name
         if column.unit:
             name += "\n" * (1 + lines - name.count("\n")) + column.unit
-        drawn.add_column(name, justify="left" if column.words else "right", overflow="fold")
+        rendered.add_column(name, justify="left" if column.words else "right", overflow="fold")
     for row in table.rows:
         cells = (
             Text(cell.text, style=STYLES[cell.tone]) if isinstance(cell, Toned) else Text(cell)
             for cell in row
         )
-        drawn.add_row(*cells)
-    return drawn
+        rendered.add_row(*cells)
+    return rendered
 
 
-def _narrower(table: CellTable, excess: int) -> CellTable:
+def _narrowed(table: CellTable, excess: int) -> CellTable:
     """Table that is narrower by so many characters: the widest texts are wrapped between words."""
-    wordy = {
+    widths = {
         index: max(
             [*map(len, column.name.split("\n")), *(len(plain(row[index])) for row in table.rows)]
         )
         for index, column in enumerate(table.columns)
         if column.words
     }
-    for _ in range(excess if wordy else 0):
-        widest = max(wordy, key=wordy.__getitem__)
-        wordy[widest] = max(wordy[widest] - 1, _NARROWEST)
+    for _ in range(excess if widths else 0):
+        widest = max(widths, key=widths.__getitem__)
+        widths[widest] = max(widths[widest] - 1, _NARROWEST_COLUMN)
     rows = []
     for row in table.rows:
         cells = list(row)
-        for index, width in wordy.items():
+        for index, width in widths.items():
             text = plain(row[index])
             # A cell of several lines, such as a plot, is left as it is.
             if len(text) > width and "\n" not in text:
@@ -147,18 +147,24 @@ def _narrower(table: CellTable, excess: int) -> CellTable:
     return replace(table, rows=tuple(rows))
 
 
-def _width(console: Console, drawn: rich_table.Table) -> int:
+def _width(console: Console, rendered: rich_table.Table) -> int:
     """Width without line breaks [characters]."""
-    return console.measure(drawn, options=console.options.update(max_width=sys.maxsize)).maximum
+    return console.measure(rendered, options=console.options.update(max_width=sys.maxsize)).maximum
 
 
-def files_written(console: Console, folder: str, files: Iterable[str], held: str = "") -> None:
+def files_written(
+    console: Console, folder: str, files: Iterable[str], design_content: str = ""
+) -> None:
     """Print the files written to a folder, by subfolder.
 
-    `held` says what its design.json contains; empty if it has none.
+    `design_content` says what its design.json contains; empty if it has none.
     """
     heading(console, f"Written to {folder}/")
-    rows = [(DESIGN_FILE, f"{held}, and the hashes of the other files")] if held else []
+    rows = (
+        [(DESIGN_FILE, f"{design_content}, and the hashes of the other files")]
+        if design_content
+        else []
+    )
     if (Path(folder) / REPORT_FILE).is_file():
         rows.append((REPORT_FILE, "the whole report to read, mail and sign: open it in a browser"))
     folders: dict[str, list[str]] = {}
@@ -167,6 +173,6 @@ def files_written(console: Console, folder: str, files: Iterable[str], held: str
             folder_name, _, file = name.rpartition("/")
             folders.setdefault(folder_name, []).append(file)
     for name, names in sorted(folders.items()):
-        listed = "  ".join(names) if len(names) <= MOST_LISTED else f"{len(names)} files"
-        rows.append((f"{name or '.'}/", listed))
+        entry = "  ".join(names) if len(names) <= MOST_LISTED else f"{len(names)} files"
+        rows.append((f"{name or '.'}/", entry))
     facts(console, rows)

@@ -24,21 +24,26 @@ SAME_RATE = (
 
 def print_inspection(console: Console, inspection: Inspection, *, verbose: bool = False) -> None:
     """Print mass, posture, inertia, incidence angles and their change with the posture."""
-    robot, found = inspection.robot, inspection.recognition
-    legs, recognised = ", ".join(robot.legs) or "none found", []
-    if found is not None:
-        if found.legs:
+    robot, recognition = inspection.robot, inspection.recognition
+    legs, recognition_rows = ", ".join(robot.legs) or "none found", []
+    if recognition is not None:
+        if recognition.legs:
             # Feet and the kinds of their end links.
-            feet = ", ".join(leg.foot for leg in found.legs)
-            ends = " and ".join(f"{kind}s" for kind in sorted({leg.ends_in for leg in found.legs}))
-            legs = f"{feet} ({len(found.legs)}, ending in {ends})"
-        directions = f"forward {found.forward}, left {found.left}, up {found.up}"
-        sure = "as specified"
-        if not {"trunk", "legs"} <= set(found.stated):
-            stated = "".join(f", {name} as specified" for name in found.stated)
-            but = f": but {'; '.join(found.speaks_against)}" if found.speaks_against else ""
-            sure = f"{found.confidence:.0%} confidence{stated}{but}"
-        recognised = [("directions", f"{directions} of '{found.trunk}'"), ("trunk, legs", sure)]
+            feet = ", ".join(leg.foot for leg in recognition.legs)
+            kinds = sorted({leg.ends_in for leg in recognition.legs})
+            ends = " and ".join(f"{kind}s" for kind in kinds)
+            legs = f"{feet} ({len(recognition.legs)}, ending in {ends})"
+        directions = f"forward {recognition.forward}, left {recognition.left}, up {recognition.up}"
+        confidence = "as specified"
+        if not {"trunk", "legs"} <= set(recognition.stated):
+            given = "".join(f", {name} as specified" for name in recognition.stated)
+            confidence = f"{recognition.confidence:.0%} confidence{given}"
+            if recognition.speaks_against:
+                confidence += f": but {'; '.join(recognition.speaks_against)}"
+        recognition_rows = [
+            ("directions", f"{directions} of '{recognition.trunk}'"),
+            ("trunk, legs", confidence),
+        ]
     print_robot(
         console,
         robot,
@@ -46,18 +51,18 @@ def print_inspection(console: Console, inspection: Inspection, *, verbose: bool 
             (f"read from {robot.format}", robot.source),
             ("links, joints", f"{inspection.links}, {inspection.joints} moving"),
             ("legs", legs),
-            *recognised,
+            *recognition_rows,
             ("heading drift", heading_drift(inspection.heading_drift)),
         ],
     )
-    if found is not None and found.likely:
+    if recognition is not None and recognition.likely:
         heading(console, "Trunk and legs are ambiguous; `size` will ask for one of")
         rows = tuple(
             (
-                f"--trunk {each.trunk} --legs {','.join(each.legs) or 'none'}",
-                f"{each.confidence:.0%}",
+                f"--trunk {candidate.trunk} --legs {','.join(candidate.legs) or 'none'}",
+                f"{candidate.confidence:.0%}",
             )
-            for each in found.likely
+            for candidate in recognition.likely
         )
         show(console, CellTable(columns("<options", "confidence"), rows))
     heading(console, "Incidence angle alpha* of the robot alone, by criterion")

@@ -34,19 +34,20 @@ from ocs_design.simulation.run import Run, Series
 LEAST_SPAN = np.radians(5.0)
 """Smallest angle of a full bar [rad], so that a level flight looks level."""
 
-_FEWEST = 2
-"""Number of columns of the ranking on the narrowest terminal: drive and mass."""
+_FEWEST_COLUMNS = 2
+"""Columns of the ranking that even the narrowest terminal shows: drive and mass."""
 
 
 def print_design(console: Console, design: OcsDesign) -> None:
     """Print everything about a design and its flights, the verdict first."""
     print_headline(console, headline(design))
-    items(console, (f"{each.what}; {each.cure}" for each in design.buildable.open[1:]))
+    items(console, (f"{point.what}; {point.cure}" for point in design.buildable.open[1:]))
     # Warnings about the robot's file follow with the robot.
-    minded = [each for each in warnings.all_warnings(design) if each not in design.robot.warnings]
-    if minded:
+    of_robot = design.robot.warnings
+    device_warnings = [text for text in warnings.all_warnings(design) if text not in of_robot]
+    if device_warnings:
         heading(console, "Warnings")
-        items(console, (*minded, *warnings.reach_notes(design.ocs)), style="yellow")
+        items(console, (*device_warnings, *warnings.reach_notes(design.ocs)), style="yellow")
     print_robot(console, design.robot)
     heading(console, f"Requirement: wheels of at most {rpm(design.requirement.wheel_speed_max)}")
     show(console, limits.demand_table(design))
@@ -68,9 +69,9 @@ def print_design(console: Console, design: OcsDesign) -> None:
     heading(console, f"Active limits: {names}")
     if meaning:
         note(console, meaning)
-    owed = limits.driving_maneuver_text(design)
-    if owed:
-        note(console, f"The mass is driven by {owed}.")
+    driving = limits.driving_maneuver_text(design)
+    if driving:
+        note(console, f"The mass is driven by {driving}.")
     show(console, limits.saving_table(design))
     note(console, limits.saving_notes(design))
     if design.selection is not None and design.selection.kept is not None:
@@ -93,9 +94,9 @@ def print_alternatives(console: Console, design: OcsDesign) -> None:
     """Print the effect of each single change of the specification; nothing if none was tried."""
     if design.alternatives:
         heading(console, "Lighter alternatives")
-        found = limits.alternatives_table(design)
-        if found.rows:
-            show(console, found)
+        table = limits.alternatives_table(design)
+        if table.rows:
+            show(console, table)
         useless = limits.useless_changes_note(design)
         if useless:
             note(console, useless)
@@ -132,7 +133,7 @@ def print_selection(
     show(console, selection.task_table(chosen))
     note(console, selection.task_note(chosen, maneuvers))
     drives = selection.shown_drives(chosen.ranking)
-    show(console, selection.drive_table(drives), fewest=_FEWEST)
+    show(console, selection.drive_table(drives), fewest=_FEWEST_COLUMNS)
     ruled_out = selection.ruled_out(chosen)
     if ruled_out:
         note(console, ruled_out)
@@ -153,7 +154,7 @@ MOST_MARGINS, MOST_WARNINGS, MOST_CHANGES = 4, 3, 3
 
 NARROWEST_PLOT, WIDEST_PLOT = 8, 20
 BESIDE_PLOTS = 64
-"""Columns of the flights' table without its plots."""
+"""Width of the flights' table without its plots [characters]."""
 
 
 def print_summary(console: Console, design: OcsDesign, runs: Sequence[Run], folder: Path) -> None:
@@ -167,10 +168,10 @@ def print_summary(console: Console, design: OcsDesign, runs: Sequence[Run], fold
     robot = design.robot
     rows = [("robot", f"{robot.name}, {robot.mass:.4g} kg, posture {robot.posture_name}")]
     rows += first_facts(design)
-    owed = limits.driving_maneuver_text(design)
-    why = [listed(limits.active_limit_names(design)), f"driven by {owed}" if owed else ""]
-    if any(why):
-        rows.append(("set by", "; ".join(filter(None, why))))
+    driving = limits.driving_maneuver_text(design)
+    causes = [listed(limits.active_limit_names(design)), f"driven by {driving}" if driving else ""]
+    if any(causes):
+        rows.append(("set by", "; ".join(filter(None, causes))))
     for index, (share, names) in enumerate(limits.utilizations(design)[:MOST_MARGINS]):
         rows.append(("" if index else "used", f"{share} {names}"))
     if limits.pause_remark(design):
@@ -182,12 +183,12 @@ def print_summary(console: Console, design: OcsDesign, runs: Sequence[Run], fold
         _print_flights(console, design, runs)
     # Already said by the verdict.
     flown = (run for run in design.validation if run.ocs and run.scenario == line.flight)
-    shown = {line.main_finding, *(flights.run_sentence(run, with_note=False) for run in flown)}
-    minded = [each for each in warnings.all_warnings(design) if each not in shown]
-    if minded:
+    reported = {line.main_finding, *(flights.run_sentence(run, with_note=False) for run in flown)}
+    unreported = [text for text in warnings.all_warnings(design) if text not in reported]
+    if unreported:
         # The number of further warnings would not help; the most important ones are here.
-        heading(console, "Warnings (-v: all)" if len(minded) > MOST_WARNINGS else "Warnings")
-        items(console, minded[:MOST_WARNINGS], style="yellow")
+        heading(console, "Warnings (-v: all)" if len(unreported) > MOST_WARNINGS else "Warnings")
+        items(console, unreported[:MOST_WARNINGS], style="yellow")
     changes = limits.saving_changes(design)[:MOST_CHANGES]
     if changes:
         heading(console, "What one change would save")
@@ -210,16 +211,16 @@ def _print_flights(console: Console, design: OcsDesign, runs: Sequence[Run]) -> 
     plotted = (
         width >= NARROWEST_PLOT and console.encoding.startswith("utf") and breaks_lines(console)
     )
-    shown = flights.verdict_table(design)
+    table = flights.verdict_table(design)
     heading(console, f"Flights in MuJoCo: {flights.flights_title(design.validation)}")
     if plotted:
         rows = []
-        for row, pair in zip(shown.rows, zip(runs[::2], runs[1::2], strict=True), strict=True):
+        for row, pair in zip(table.rows, zip(runs[::2], runs[1::2], strict=True), strict=True):
             plots, top = tilt_plots([run.series for run in pair], width)
             rows.append((*row, *plots, degrees_number(top, 0)))
-        heads = columns("<tilt with", "<without", "full")
-        shown = CellTable((*shown.columns, *heads), tuple(rows))
-    show(console, shown)
+        headings = columns("<tilt with", "<without", "full")
+        table = CellTable((*table.columns, *headings), tuple(rows))
+    show(console, table)
     if plotted:
         times = listed([f"{run.series.time[-1]:.1f}" for run in runs[::2]])
         note(console, f"tilt: off level from start to end, {times} s; full: deg of a full bar")
@@ -245,8 +246,8 @@ def tilt_plots(runs: Sequence[Series], width: int) -> tuple[list[str], float]:
 def print_lighter(console: Console, design: OcsDesign) -> None:
     """Print the trade-offs for a lighter device; nothing if they were not requested."""
     if design.lighter is not None:
-        asked = format_quantity(design.lighter.by, "g", 3)
-        heading(console, f"Trade-offs to save {asked}")
+        saving = format_quantity(design.lighter.by, "g", 3)
+        heading(console, f"Trade-offs to save {saving}")
         if design.lighter.changes:
             show(console, limits.lighter_table(design), fewest=2)
         else:

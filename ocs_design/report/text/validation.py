@@ -41,23 +41,23 @@ def print_headline(console: Console, line: Headline, *more: Text) -> None:
 
 
 def print_validated(
-    console: Console, found: Validated, folder: Path | None, files: Sequence[str], again: str = ""
+    console: Console, result: Validated, folder: Path | None, files: Sequence[str], again: str = ""
 ) -> None:
     """Print the flights as `size` does, the campaign, the files written, and the verdict.
 
     Args:
         again: how to fly one of the samples again.
     """
-    if found.sample is not None:
-        heading(console, f"Sample {found.sample.index} of seed {found.sample.seed}")
+    if result.sample is not None:
+        heading(console, f"Sample {result.sample.index} of seed {result.sample.seed}")
         units = {key: spread.unit for key, spread in spreads().items()} | dict.fromkeys(STOPS, "")
         values = (
             (name.replace("_", " ").replace(".", " "), format_quantity(value, units[key_of(name)]))
-            for name, value in found.sample.values.items()
+            for name, value in result.sample.values.items()
         )
         facts(console, values)
-    print_runs(console, found.validation, found.survival)
-    record = found.monte_carlo
+    print_runs(console, result.validation, result.survival)
+    record = result.monte_carlo
     if record is not None:
         heading(console, f"Monte Carlo: {monte_carlo.campaign_title(record)}")
         show(console, monte_carlo.success_table(record))
@@ -71,4 +71,4 @@ def print_validated(
     if folder is not None:
         files_written(console, str(folder), files)
     console.print()
-    print_headline(console, headline(found))
+    print_headline(console, headline(result))

@@ -9,7 +9,7 @@ from rich.panel import Panel
 from rich.table import Table
 from rich.text import Text
 
-from ocs_design.report.text.console import CleanHook, Steps, cleaned
+from ocs_design.report.text.console import CleaningHook, Steps, without_control_characters
 
 EVIL = "a\x1b[31mb\x9b2Jc\x07d\u202ee\x7f\x85[bold]f[/nope]"
 
@@ -17,7 +17,7 @@ EVIL = "a\x1b[31mb\x9b2Jc\x07d\u202ee\x7f\x85[bold]f[/nope]"
 def printed(what, **options):
     stream = io.StringIO()
     console = Console(file=stream, width=80, **options)
-    console.push_render_hook(CleanHook())
+    console.push_render_hook(CleaningHook())
     console.print(what)
     return stream.getvalue()
 
@@ -42,7 +42,7 @@ def test_colours_of_our_own_are_kept():
 
 
 def test_lines_and_letters_of_any_language_stay():
-    assert cleaned("Größe\tभाषा\n日本 🤖") == "Größe\tभाषा\n日本 🤖"
+    assert without_control_characters("Größe\tभाषा\n日本 🤖") == "Größe\tभाषा\n日本 🤖"
 
 
 def test_a_step_is_shown_as_it_is_named():
