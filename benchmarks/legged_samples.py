@@ -289,7 +289,7 @@ def refusal(robot: Found) -> tuple[str, str, str]:
     """Of the message, and of the hint what it says of a motor and of another incidence."""
     error = robot.sized["error"]
     if error["kind"] != "infeasible":
-        return f"not asked: {error['message'].split(': ', 1)[-1].splitlines()[0]}", "-", "-"
+        return f"not sized: {error['message'].split(': ', 1)[-1].splitlines()[0]}", "-", "-"
     closest = error["message"].splitlines()[0].split("; ")[-1].removesuffix(".")
     closest = closest.replace(" comes closest:", ",")
     would_do = WOULD_DO.search(error["hint"])

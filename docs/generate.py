@@ -99,10 +99,15 @@ def maneuver_keys(kind: str) -> str:
     """Table of the keys of one kind of maneuver."""
     entry = MANEUVER_KINDS[kind]
     rows = [
-        (f"`{name}`", accepts(value), "yes" if name in entry.required else "no")
+        (
+            f"`{name}`",
+            accepts(value),
+            "yes" if name in entry.required else "no",
+            entry.notes[name],
+        )
         for name, value in entry.values.items()
     ]
-    return table(("key", "takes", "required"), rows)
+    return table(("key", "takes", "required", "meaning"), rows)
 
 
 def accepts(value: Value[object]) -> str:

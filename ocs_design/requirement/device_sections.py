@@ -69,7 +69,7 @@ class OcsSection:
     axes: tuple[float, ...] | None = keyed(
         Quantities(Dimension.RATIO, OF_WHEELS),
         "directions of the wheels' axes by hand, in place of a layout: x, y, z of each",
-        why="x, y, z of each wheel's axis, of any length; in place of a layout.",
+        why="Vectors of any length, one per wheel; replaces layout.",
         default="those of the layout",
         example="[0, 1, 0, 1, 0, 0]",
     )
@@ -90,7 +90,7 @@ class OcsSection:
         Quantities(Dimension.LENGTH, OF_WHEELS),
         "centre of a pair's left wheel on the trunk: x, y, z; of other layouts, of each wheel",
         why="In the trunk's frame; a pair's right wheel is mirrored in y.",
-        default="found, free of the robot's own parts",
+        default="searched, clear of the robot's parts",
         example='["0 mm", "50 mm", "70 mm"]',
     )
     mass_max: float | None = keyed(
@@ -102,14 +102,14 @@ class OcsSection:
     )
     lighter_by: float | None = keyed(
         MASS,
-        "report what to change to save this mass",
+        "report which changes would save this mass",
         why="Each change is a complete sizing: it takes a minute.",
         default="not reported",
         example='"90 g"',
     )
     co_design: bool | None = keyed(
         true_or_false,
-        "whether to refine all dimensions by optimal control in 3-D",
+        "whether to optimize all dimensions together with the maneuvers, in 3-D",
         why="0 to 0.8 % lighter on the robots tried; takes some seconds more.",
         assumed=False,
     )
@@ -187,7 +187,7 @@ class FlywheelSection:
         Choice(WEBS),
         "what joins a rim to its motor: a disc in one piece with it, an aluminium disc that it "
         "is shrunk on, or none: massless spokes",
-        why="none is the paper's: massless spokes.",
+        why="none: the paper's massless spokes, for comparison.",
         assumed=DISC,
     )
     stress_safety: float | None = keyed(
@@ -204,7 +204,7 @@ class FlywheelSection:
     chamfer: float | None = keyed(
         Quantity(Dimension.LENGTH, Sign.NOT_NEGATIVE, LARGEST_CHAMFER),
         "chamfer of the edges of a wheel with a web, at 45 deg",
-        why="As your workshop breaks edges; its mass is accounted for.",
+        why="As your workshop breaks edges; the removed mass is accounted for.",
         assumed=CHAMFER,
     )
     balancing_holes: int | None = keyed(
@@ -275,7 +275,7 @@ class MotorSection:
     )
     gear: str | None = keyed(
         Text((AUTO, DIRECT.name)),
-        "gear from the catalogue, direct, or auto",
+        "gear from the catalogue, direct (none), or auto",
         why="auto: any of `ocs-design catalogue gears`; their mounting is not designed.",
         assumed=DIRECT.name,
     )
@@ -288,20 +288,20 @@ class MotorSection:
     )
     motors: str | None = keyed(
         Text(),
-        "file with motors to choose from instead, CSV or TOML",
+        "file of motors to choose from, CSV or TOML",
         why="Instead of the catalogue; path relative to this file.",
         default="none",
         example='"my_motors.csv"',
     )
     with_catalogue: bool | None = keyed(
         true_or_false,
-        "whether to choose from the catalogue too, in addition to that file",
+        "with a file of motors: whether to choose from the catalogue too",
         why="true: your file's motors and the catalogue's.",
         assumed=False,
     )
     gears: str | None = keyed(
         Text(),
-        "file with gears of your own, CSV or TOML",
+        "file of your own gears, CSV or TOML",
         why="To choose from as well; path relative to this file.",
         default="none",
         example='"my_gears.csv"',
@@ -342,6 +342,6 @@ class SupplySection:
     controllers: float | str | None = keyed(
         WordOr((AUTO, NO_CONTROLLERS), MASS),
         "mass of one motor controller; none: not counted",
-        why="auto: from their current; a mass if you have controllers; none: not counted.",
+        why="auto: estimated from the current; give the mass if you have controllers.",
         assumed=AUTO,
     )

@@ -62,7 +62,7 @@ Tilt: TypeAlias = Annotated[float, TILT]
 Spin: TypeAlias = Annotated[float, SPIN]
 Impulse: TypeAlias = Annotated[Vector3, Quantities(Dimension.IMPULSE, (3,))]
 Point: TypeAlias = Annotated[
-    Vector3, Quantities(Dimension.LENGTH, (3,)), "of the trunk that the force hits"
+    Vector3, Quantities(Dimension.LENGTH, (3,)), "point of the trunk that the force hits"
 ]
 Rate: TypeAlias = Annotated[Vector3, Quantities(Dimension.ANGULAR_SPEED, (3,))]
 
@@ -88,13 +88,15 @@ class Maneuver(ABC):
         reducible: `tilt` or `push`, if less of it may be proposed for a lighter device; empty: not.
     """
 
-    name: Annotated[str, Text(), "of your choice, different for each maneuver"]
+    name: Annotated[str, Text(), "your choice, different for each maneuver"]
     gravity: Annotated[
         float,
         Quantity(Dimension.ACCELERATION, Sign.NOT_NEGATIVE),
-        "if not that of [requirement]",
+        "gravity, if not that of [requirement]",
     ] = STANDARD_GRAVITY
-    incidence: Annotated[float | None, INCIDENCE, "if the modules are turned by hand for it"] = None
+    incidence: Annotated[
+        float | None, INCIDENCE, "angle, if the modules are turned by hand for this maneuver"
+    ] = None
     estimate: float = 1.0
 
     on_pivot: ClassVar[bool] = False

@@ -118,18 +118,20 @@ class Pivoted(Maneuver):
         body: the robot, in B; None: not known yet (`on`).
     """
 
-    pivot: Annotated[Point, "on which it stands, in the trunk's frame"]
+    pivot: Annotated[Point, "point on which it stands, in the trunk's frame"]
     edge: Annotated[
         Vector3,
         Quantities(Dimension.RATIO, (3,)),
         "direction of the edge on which it stands; zeros: a point",
     ] = (0.0, 0.0, 0.0)
-    roll: Annotated[Tilt, "at the start, from where it balances"] = 0.0
-    pitch: Annotated[Tilt, "at the start"] = 0.0
-    duration: Annotated[Time, "until it is upright and at rest"]
-    wheel_speed: Annotated[Spin, "of all wheels at the start"] = 0.0
+    roll: Annotated[Tilt, "roll at the start, from balance"] = 0.0
+    pitch: Annotated[Tilt, "pitch at the start, from balance"] = 0.0
+    duration: Annotated[Time, "time until it is upright and at rest"]
+    wheel_speed: Annotated[Spin, "speed of all wheels at the start"] = 0.0
     end: Annotated[
-        str, Choice((End.LEVEL, End.ATTITUDE)), "level, or attitude (heading included)"
+        str,
+        Choice((End.LEVEL, End.ATTITUDE)),
+        "required end: level, or attitude (heading included)",
     ] = End.LEVEL
     stretch: float = 1.0
     body: MassProperties | None = None
@@ -372,8 +374,8 @@ class Balance(Pivoted):
         impulse: of a force at that time, in B [N s], shape (3,). point: where it hits, in B [m].
     """
 
-    rate: Annotated[Rate, "of the trunk at the start, about its x, y and z"] = (0.0, 0.0, 0.0)
-    impulse: Annotated[Impulse, "of a force at the start"] = (0.0, 0.0, 0.0)
+    rate: Annotated[Rate, "rate of the trunk at the start, about its x, y and z"] = (0.0, 0.0, 0.0)
+    impulse: Annotated[Impulse, "impulse of a force at the start"] = (0.0, 0.0, 0.0)
     point: Point = (0.0, 0.0, 0.0)
 
     _longest: ClassVar[float] = 2.0
@@ -426,7 +428,7 @@ class StandUp(Pivoted):
     actuation: Annotated[
         str,
         Choice(tuple(Actuation)),
-        "motor, or brake: wheels spun up beforehand are stopped in an instant",
+        "motor, or brake: wheels spun up beforehand stop in an instant",
     ] = Actuation.MOTOR
 
     estimated: ClassVar[bool] = True

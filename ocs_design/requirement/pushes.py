@@ -30,7 +30,7 @@ from ocs_design.robot.mass import MassProperties
 Torque: TypeAlias = Annotated[
     Vector3,
     Quantities(Dimension.TORQUE, (3,)),
-    "on the trunk, about its x (forward), y (left) and z",
+    "torque on the trunk, about its x (forward), y (left) and z",
 ]
 
 _LONGEST_STRIDE = 5.0
@@ -124,17 +124,19 @@ class Disturbance(Unforeseen):
     """
 
     takeoff_velocity: Annotated[
-        tuple[float, float], Quantities(Dimension.SPEED, (2,)), "forward, up"
+        tuple[float, float], Quantities(Dimension.SPEED, (2,)), "velocity at lift-off: forward, up"
     ]
     torque: Torque
-    onset: Annotated[float, Quantity(Dimension.TIME, Sign.NOT_NEGATIVE), "after lift-off"]
-    duration: Annotated[Time, "of the torque"]
+    onset: Annotated[
+        float, Quantity(Dimension.TIME, Sign.NOT_NEGATIVE), "time from lift-off to the torque"
+    ]
+    duration: Annotated[Time, "duration of the torque"]
     velocity_change: Annotated[
         Vector3,
         Quantities(Dimension.SPEED, (3,)),
-        "of the centre of mass, by a force in addition to the torque",
+        "change of the centre of mass's velocity, by a force in addition to the torque",
     ] = (0.0, 0.0, 0.0)
-    impulse: Annotated[Impulse, "of a force, from which torque and velocity_change follow"] = (
+    impulse: Annotated[Impulse, "impulse of a force; torque and velocity_change follow from it"] = (
         0.0,
         0.0,
         0.0,
@@ -244,12 +246,12 @@ class Shove(Unforeseen):
     """
 
     torque: Torque
-    duration: Annotated[Time, "of the torque"]
-    settling: Annotated[Time, "from the end of the torque to rest"]
+    duration: Annotated[Time, "duration of the torque"]
+    settling: Annotated[Time, "time from the end of the torque to rest"]
     stride: Annotated[
         float,
         Quantity(Dimension.TIME, Sign.NOT_NEGATIVE, most=_LONGEST_STRIDE),
-        "of a trot on the spot; 0: the robot stands",
+        "period of a trot on the spot; 0: the robot stands",
     ] = 0.0
 
     on_feet: ClassVar[bool] = True

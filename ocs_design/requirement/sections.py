@@ -77,20 +77,20 @@ class RobotSection:
         Text(),
         "link that carries the device",
         why="Set it if the wrong link was recognised as the trunk.",
-        default="found",
+        default="detected",
         example='"trunk"',
     )
     legs: tuple[str, ...] | None = keyed(
         link_names,
-        "a link of each foot; none: the robot has no legs",
+        "feet, one link per leg; none: the robot has no legs",
         why="Set them if the wrong limbs were recognised as legs.",
-        default="found",
+        default="detected",
         example='["FL_FOOT", "FR_FOOT"]',
     )
     posture: str | None = keyed(
         Text(),
         "zero, stand, or a name from the file",
-        why="The inertia, and all that follows from it, is that of this posture.",
+        why="The inertia, and with it the device, follows from this posture.",
         default="stand if legs are found",
         example='"stand"',
     )
@@ -98,7 +98,7 @@ class RobotSection:
         joint_values,
         "joint values on top of the posture",
         option="joint",
-        why="For a posture that has no name.",
+        why="For a posture without a name.",
         default="none",
         example='{ "FL_HFE" = "45deg", "FL_KFE" = "-90deg" }',
     )
@@ -106,21 +106,21 @@ class RobotSection:
         MASS,
         "mass of the robot",
         why="In place of a file, with the inertia.",
-        default="read",
+        default="from the file",
         example='"2.5 kg"',
     )
     inertia: tuple[float, ...] | None = keyed(
         Quantities(Dimension.INERTIA, (3, 6)),
         "inertia about the centre of mass: Ixx, Iyy, Izz[, Ixy, Ixz, Iyz]",
         why="In place of a file, with the mass.",
-        default="read",
+        default="from the file",
         example="[0.032, 0.055, 0.070]",
     )
     human: Person | None = keyed(
         person_text,
         "a person who wears the device, in place of a file",
         why="In place of a file: mass, height, payload.",
-        default="read",
+        default="none",
         example='"75kg 1.75m with 10kg"',
     )
     weighed: float | None = keyed(
@@ -157,7 +157,7 @@ class RequirementSection:
     rate_change: float | None = keyed(
         TRUNK_RATE,
         "change of the trunk's rate",
-        why="The paper's requirement, about either axis, in addition to the maneuvers.",
+        why="The paper's requirement, about either axis, in addition to your own maneuvers.",
         default="not required",
         example='"2 rad/s"',
     )
@@ -172,7 +172,7 @@ class RequirementSection:
         Quantity(Dimension.INERTIA),
         "spin inertia of one wheel, specified directly",
         why="For a wheel that you already have; nothing else is then required.",
-        default="found",
+        default="computed",
         example='"7.11e-5 kg m2"',
     )
     gravity: float | None = keyed(
@@ -184,71 +184,71 @@ class RequirementSection:
     jump_height: tuple[float, ...] | None = keyed(
         Several(HEIGHT),
         "height of a jump, of the centre of mass",
-        why="Alone: disturbed as in the paper's first test; else the jump of each kick and flip.",
-        default="not asked",
+        why="Alone: with the push of the paper's first test; else the jump of each kick and flip.",
+        default="not required",
         example='"0.4 m"',
     )
     kick: tuple[Kick, ...] | None = keyed(
         Several(kick_text),
         "impulse on the trunk during a jump",
         why="Without `along`, it comes from the side.",
-        default="not asked",
+        default="not required",
         example='"12 N s at 0.1,0,0.2 along 0,1,0"',
     )
     fall: tuple[float, ...] | None = keyed(
         Several(HEIGHT),
         "height of the trunk at the start of a fall",
-        why="The tilted trunk is released at rest at this height above the ground.",
-        default="not asked",
+        why="The trunk is released at rest, with its frame this high above the ground.",
+        default="not required",
         example='"1 m"',
     )
     tilt: tuple[Tilt, ...] | None = keyed(
         Several(tilt_text),
         "tilt of the trunk at the start of a fall",
         why="For each fall; positive pitch is nose down, positive roll to the right.",
-        default="not asked",
+        default="not required",
         example='"20 deg"',
     )
     flip: tuple[float, ...] | None = keyed(
         Several(FLIP),
         "turn in pitch during a jump",
-        why="A whole turn, or an angle of pitch.",
-        default="not asked",
+        why="back, forward, or an angle of whole turns; back-flips are negative.",
+        default="not required",
         example='"back"',
     )
     turn: tuple[About, ...] | None = keyed(
         Several(TURN_TEXT),
         "turn to any attitude during a jump",
         why="To an attitude, heading included, within a time.",
-        default="not asked",
+        default="not required",
         example='"yaw 90 deg in 2.9 s"',
     )
     catch: tuple[About, ...] | None = keyed(
         Several(CATCH_TEXT),
         "rates at lift-off that the wheels must stop",
         why="Rates of the trunk at lift-off; it must be level within a time.",
-        default="not asked",
+        default="not required",
         example='"roll 20 deg/s pitch 45 deg/s in 0.5 s"',
     )
     pivot: Pivot | None = keyed(
         pivot_text,
         "point or edge for balance and stand_up",
         why="In the trunk's frame, below the centre of mass.",
-        default="not asked",
+        default="not required",
         example='"0,0,-0.2 along left"',
     )
     balance: tuple[About | Kick, ...] | None = keyed(
         Several(upset_text),
         "tilt or impulse to recover from on the pivot",
         why="The robot must be upright again: after a tilt from balance, or an impulse.",
-        default="not asked",
+        default="not required",
         example='"pitch 5 deg in 1 s"',
     )
     stand_up: tuple[Climb, ...] | None = keyed(
         Several(climb_text),
         "tilt to stand up from on the pivot",
         why="From a tilt to upright on the pivot, by the motors or by braking the wheels.",
-        default="not asked",
+        default="not required",
         example='"pitch 45 deg by brake"',
     )
     maneuvers: str | None = keyed(
@@ -265,9 +265,9 @@ class RequirementSection:
     )
     survives: str | None = keyed(
         Choice(SURVIVED),
-        "whether it must land level if a drive fails in flight",
-        why="any one motor, or one: sized and flown so that it lands level whichever drive fails, "
-        "at any instant of a maneuver; its wheel coasts on.",
+        "whether the robot must land level if any one drive fails in flight",
+        why="one, or any one motor: level whichever drive fails, at any instant of a maneuver; the "
+        "failed drive's wheel coasts.",
         assumed=NONE_STOPS,
     )
     detection: float | None = keyed(

@@ -28,9 +28,9 @@ from ocs_design.requirement.values import HEIGHT, TURN, YAW, Choice
 from ocs_design.requirement.vocabulary import ORTHOGONAL, PYRAMID
 
 _Height: TypeAlias = Annotated[float, HEIGHT]
-_JumpHeight: TypeAlias = Annotated[_Height, "of the centre of mass"]
+_JumpHeight: TypeAlias = Annotated[_Height, "rise of the centre of mass"]
 _Turn: TypeAlias = Annotated[float, TURN]
-_TurnTime: TypeAlias = Annotated[Time, "of the turn, from lift-off"]
+_TurnTime: TypeAlias = Annotated[Time, "time of the turn, from lift-off"]
 
 
 class Reorientation(Maneuver):
@@ -68,9 +68,9 @@ class Drop(Reorientation):
         height: of the trunk frame's origin above the ground [m]. roll, pitch: at release [rad].
     """
 
-    height: Annotated[_Height, "of the trunk above the ground"]
-    roll: Annotated[Tilt, "at release"] = 0.0
-    pitch: Annotated[Tilt, "at release"]
+    height: Annotated[_Height, "height of the trunk's frame above the ground"]
+    roll: Annotated[Tilt, "roll at release; positive: right side down"] = 0.0
+    pitch: Annotated[Tilt, "pitch at release; positive: nose down"]
 
     turned_by: ClassVar[tuple[str, ...]] = ("roll", "pitch")
     milder_by: ClassVar[tuple[str, ...]] = turned_by
@@ -189,7 +189,7 @@ class Flip(TimedTurn):
     """
 
     jump_height: _JumpHeight
-    angle: Annotated[_Turn, "of pitch"]
+    angle: Annotated[_Turn, "turn in pitch; negative: a back-flip"]
     duration: _TurnTime
 
     counts_turns: ClassVar[bool] = True
@@ -236,9 +236,9 @@ class Flip(TimedTurn):
 LOOP_SHARE = 0.75
 """Fraction of the tilt loop that wheels and motors are sized for, in that fraction of its time."""
 
-_RateAtStart: TypeAlias = Annotated[Rate, "of the trunk at lift-off, about its x, y and z"]
+_RateAtStart: TypeAlias = Annotated[Rate, "rate of the trunk at lift-off, about its x, y and z"]
 _End: TypeAlias = Annotated[
-    str, Choice(tuple(End)), "level, attitude (with its heading) or at rest"
+    str, Choice(tuple(End)), "required end: level, attitude (with its heading) or at rest"
 ]
 
 _ENDS: Mapping[str, str] = {
@@ -275,12 +275,12 @@ class TurnTo(TimedTurn):
     """
 
     jump_height: _JumpHeight = 0.0
-    roll: Annotated[_Turn, "at the end, reached by yaw, then pitch, then roll"] = 0.0
-    pitch: Annotated[_Turn, "at the end"] = 0.0
-    yaw: Annotated[float, YAW, "at the end"] = 0.0
+    roll: Annotated[_Turn, "roll at the end, reached by yaw, then pitch, then roll"] = 0.0
+    pitch: Annotated[_Turn, "pitch at the end"] = 0.0
+    yaw: Annotated[float, YAW, "yaw at the end"] = 0.0
     duration: _TurnTime
     rate: _RateAtStart = (0.0, 0.0, 0.0)
-    wheel_speed: Annotated[Spin, "of all wheels at lift-off"] = 0.0
+    wheel_speed: Annotated[Spin, "speed of all wheels at lift-off"] = 0.0
     end: _End = End.ATTITUDE
     direct: bool = False
 
@@ -414,8 +414,8 @@ class TurnTo(TimedTurn):
 class Catch(TurnTo):
     """A stop of a trunk that rotates at lift-off."""
 
-    roll: Annotated[_Turn, "at the end, where end is attitude"] = 0.0
-    duration: Annotated[Time, "from lift-off until it is at rest"]
+    roll: Annotated[_Turn, "roll at the end, where end is attitude"] = 0.0
+    duration: Annotated[Time, "time from lift-off to rest"]
     rate: _RateAtStart
     end: _End = End.LEVEL
 
