@@ -1,4 +1,4 @@
-"""What one change would save: each figure against a whole selection of the changed question."""
+"""Savings of single changes, each compared with a new design for the changed specification."""
 
 from dataclasses import replace
 from functools import cache
@@ -25,35 +25,33 @@ from ocs_design.sizing.alternatives import (
 from ocs_design.sizing.changes import MORE_TIME
 from ocs_design.sizing.design import design_device
 
-ABOUT = 5e-3
-"""To which the figures are good: kicks about the centre of mass are settled to a hundredth."""
-MOTORS = "MN4014 KV400"
-"""One, so that it is quick."""
+RELATIVE_TOLERANCE = 5e-3
+"""Kicks about the centre of mass converge to 1 %."""
 
-
-STATED = Specification(motor=MotorSection(name=MOTORS))
+ONE_MOTOR = Specification(motor=MotorSection(name="MN4014 KV400"))
+"""A single motor keeps the selection fast."""
 
 
 @cache
 def compared(specification, change):
-    """The task, the device, and what this change alone would save."""
-    task, designed = design_of(specification)
-    return task, designed, saved(task, designed.choice, change)
+    """Task, design, and the alternative of one change."""
+    task, design = design_of(specification)
+    return task, design, alternative(task, design.choice, change)
 
 
-def saved(task, choice, text):
-    """What the change with this text would save."""
+def alternative(task, choice, text):
+    """The alternative of the change with this text."""
     (variant,) = [each for each in variants(task, choice) if each.text == text]
     return variant.alternative()
 
 
-def by_hand(task):
+def flips_by_hand(task):
     return tuple(
         replace(each, incidence=0.0) if isinstance(each, Flip) else each for each in task.maneuvers
     )
 
 
-def in_more_time(task):
+def slower_maneuvers(task):
     return tuple(
         each.slower(1.0 + MORE_TIME / 100.0, task.standing_height) for each in task.maneuvers
     )
@@ -61,7 +59,7 @@ def in_more_time(task):
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("change", "section", "of"),
+    ("change", "section", "section_for"),
     [
         (
             "the incidence of the lightest device",
@@ -69,108 +67,106 @@ def in_more_time(task):
             lambda _: OcsSection(alpha_criterion="lightest"),
         ),
         ("any material", "flywheel", lambda _: FlywheelSection(material="auto")),
-        ("modules turned to 0 deg by hand for each flip", "maneuvers", by_hand),
+        ("modules turned to 0 deg by hand for each flip", "maneuvers", flips_by_hand),
         ("a supply of 48 V", "supply", lambda _: SupplySection(voltage=48.0)),
         ("r_max 60 mm in place of 50 mm", "flywheel", lambda _: FlywheelSection(r_max=0.06)),
-        ("10% more time for every maneuver", "maneuvers", in_more_time),
+        ("10% more time for every maneuver", "maneuvers", slower_maneuvers),
     ],
 )
-def test_a_change_saves_what_designing_anew_saves(change, section, of):
-    task, designed, one = compared(STATED, change)
-    asked = design_of(replace(STATED, **{section: of(task)}))[1]
-    # What is lighter by less than half a percent is not told.
-    assert one.mass_total == pytest.approx(asked.device.mass, rel=ABOUT)
-    assert one.mass_total <= designed.device.mass
+def test_a_change_saves_as_much_as_a_new_design(change, section, section_for):
+    task, design, found = compared(ONE_MOTOR, change)
+    changed = design_of(replace(ONE_MOTOR, **{section: section_for(task)}))[1]
+    # Savings below 0.5 % are not reported.
+    assert found.mass_total == pytest.approx(changed.device.mass, rel=RELATIVE_TOLERANCE)
+    assert found.mass_total <= design.device.mass
     if section in {"ocs", "maneuvers"}:
-        assert asked.device.mass < designed.device.mass
-    if section == "ocs" or of is by_hand:
-        assert one.mass_total < designed.device.mass
-    assert section != "ocs" or one.note.startswith("alpha ")
-    assert section != "supply" or "rated for" in one.note or one.note == "saves nothing"
+        assert changed.device.mass < design.device.mass
+    if section == "ocs" or section_for is flips_by_hand:
+        assert found.mass_total < design.device.mass
+    assert section != "ocs" or found.note.startswith("alpha ")
+    assert section != "supply" or "rated for" in found.note or found.note == "saves nothing"
 
 
 @pytest.mark.slow
-def test_rings_on_a_robot_are_weighed_on_feet_and_a_plate_of_their_own():
+def test_mass_of_a_ring_alternative_includes_its_own_feet_and_plate():
     """Solo12's rings would stand on a heavier plate than its discs."""
     motor = MotorSection(name="Antigravity MN5008 KV400")
-    specified = Specification(robot=RobotSection(file=SOLO12), motor=motor)
-    task = solo12().with_specification(specified)
-    (told,) = alternative_construction(task, design_device(task, ranked=False).choice)
-    assert told.change == "a ring bonded around each motor's bell in place of the disc"
-    ring = task.with_specification(replace(specified, ocs=OcsSection(wheel="ring")))
-    whole = design_device(ring, ranked=False).device
-    assert told.mass_total == pytest.approx(whole.mass, rel=ABOUT)
+    discs = Specification(robot=RobotSection(file=SOLO12), motor=motor)
+    task = solo12().with_specification(discs)
+    (found,) = alternative_construction(task, design_device(task, ranked=False).choice)
+    assert found.change == "a ring bonded around each motor's bell in place of the disc"
+    rings = task.with_specification(replace(discs, ocs=OcsSection(wheel="ring")))
+    device = design_device(rings, ranked=False).device
+    assert found.mass_total == pytest.approx(device.mass, rel=RELATIVE_TOLERANCE)
 
 
 def offered(specification):
-    """What would be looked for."""
-    task, designed = design_of(specification)
-    return {each.text for each in variants(task, designed.choice)}
+    """Texts of the changes that are tried."""
+    task, design = design_of(specification)
+    return {each.text for each in variants(task, design.choice)}
 
 
 @pytest.mark.slow
-def test_nothing_that_is_stated_is_offered_again():
-    specified = Specification(
-        motor=MotorSection(name=MOTORS),
+def test_what_is_specified_is_not_offered():
+    specified = replace(
+        ONE_MOTOR,
         flywheel=FlywheelSection(material="auto"),
         ocs=OcsSection(alpha_criterion="lightest"),
         requirement=RequirementSection(fall=(1.0,)),
     )
-    found = offered(specified)
-    assert found
-    assert not {"the incidence of the lightest device", "any material"} & found
-    assert not any("any motor" in change for change in found)
+    changes = offered(specified)
+    assert changes
+    assert not {"the incidence of the lightest device", "any material"} & changes
+    assert not any("any motor" in change for change in changes)
 
 
-def test_without_maneuvers_nobody_offers_more_time_for_them():
-    by_rate = Specification(
-        motor=MotorSection(name=MOTORS), requirement=RequirementSection(rate_change=1.0)
-    )
-    assert not any("time" in change or "flip" in change for change in offered(by_rate))
+def test_without_maneuvers_no_more_time_is_offered():
+    rate_only = replace(ONE_MOTOR, requirement=RequirementSection(rate_change=1.0))
+    assert not any("time" in change or "flip" in change for change in offered(rate_only))
 
 
-def test_without_a_motor_there_is_nothing_to_choose():
-    task, designed = design_of(Specification(motor=MotorSection(name="none")))
-    assert start_alternatives(task, designed.choice)() == ((), None)
-
-
-@pytest.mark.slow
-def test_any_motor_says_what_nobody_knows_of_it():
-    _, designed, one = compared(Specification(), "any motor of the catalogue")
-    assert one.mass_total <= designed.device.mass
-    assert one.note == "saves nothing" or "not buildable: " in one.note
+def test_without_a_motor_there_are_no_alternatives():
+    task, design = design_of(Specification(motor=MotorSection(name="none")))
+    assert start_alternatives(task, design.choice)() == ((), None)
 
 
 @pytest.mark.slow
-def test_where_nothing_holds_a_device_a_quick_look_is_told_and_says_so():
-    """The look leaves out only the reserve of its own and what a mast asks of the wheels."""
+def test_the_alternative_of_any_motor_notes_missing_data():
+    _, design, found = compared(Specification(), "any motor of the catalogue")
+    assert found.mass_total <= design.device.mass
+    assert found.note == "saves nothing" or "not buildable: " in found.note
+
+
+@pytest.mark.slow
+def test_without_a_mount_alternatives_are_estimated_and_say_so():
+    """The estimate omits only the alternative's own reserve and the effect of its mast."""
     change = "modules turned to 0 deg by hand for each flip"
-    task, designed, whole = compared(STATED, change)
-    hanging = replace(designed.choice, lacks_mount=True)
-    quick = saved(task, hanging, change)
+    task, design, full = compared(ONE_MOTOR, change)
+    unmounted = replace(design.choice, lacks_mount=True)
+    quick = alternative(task, unmounted, change)
     assert "by a quick look" in quick.note
-    assert "by a quick look" not in whole.note
-    assert quick.mass_total == pytest.approx(whole.mass_total, rel=0.02)
-    assert alternative_construction(task, hanging) == ()
+    assert "by a quick look" not in full.note
+    assert quick.mass_total == pytest.approx(full.mass_total, rel=0.02)
+    assert alternative_construction(task, unmounted) == ()
 
 
-def test_calls_are_begun_at_once_and_their_answers_told_in_order():
-    """As other processes answer them: the last one first, which none may have begun."""
-    task, designed = design_of(STATED)
-    begun, asked = [], []
+def test_all_calls_start_before_any_answer_and_answers_keep_their_order():
+    """Worker processes take the last answer first, as its call may not have started yet."""
+    task, design = design_of(ONE_MOTOR)
+    started, awaited = [], []
 
     def call(function, *args):
-        number = len(begun)
-        begun.append(function.__qualname__)
+        number = len(started)
+        started.append(function.__qualname__)
         is_last = function is find_driving_maneuver
         answer = (
             "driving" if is_last else ("rings",) if function is alternative_construction else number
         )
-        return lambda: (asked.append(number), answer)[1]
+        return lambda: (awaited.append(number), answer)[1]
 
-    answers = start_alternatives(task, designed.choice, call)
-    assert not asked
-    found, driving = answers()
-    assert asked == list(range(len(begun)))[::-1]
-    assert found == (*range(1, len(begun) - 1), "rings")
+    answers = start_alternatives(task, design.choice, call)
+    assert not awaited
+    alternatives, driving = answers()
+    assert awaited == list(range(len(started)))[::-1]
+    assert alternatives == (*range(1, len(started) - 1), "rings")
     assert driving == "driving"

@@ -1,4 +1,4 @@
-"""What keeps a device from being built: its motor, joints, mounting and margins."""
+"""What makes a device unbuildable: motor, joints, mounting or margins."""
 
 from dataclasses import replace
 from math import inf
@@ -14,56 +14,54 @@ from ocs_design.sizing.buildable import buildable
 from ocs_design.sizing.footing.contact import FootContact
 from ocs_design.sizing.mounting import DeviceMounting
 
-WHOLE = next(motor for motor in motors().values() if not build_gaps(motor))
+KNOWN_MOTOR = next(motor for motor in motors().values() if not build_gaps(motor))
 FREE = DeviceMounting(Clearance("trunk", 0.01), None, (), np.zeros(3), np.zeros(3))
 
 
 def margin(name, demand, capacity):
-    """Of a quantity in W."""
+    """A margin of a quantity in W."""
     return Margin(name, demand, capacity, "W", scenario="drop")
 
 
 @pytest.mark.parametrize(
     ("motor", "mounting", "demand", "yes", "open_points"),
     [
-        (WHOLE, FREE, 900.0, True, 0),
-        # Without a motor nothing can be told, and without shapes of the robot only what fails.
+        (KNOWN_MOTOR, FREE, 900.0, True, 0),
+        # Without a motor nothing is known, and without shapes of the robot only faults are.
         (None, FREE, 2000.0, None, 0),
-        (WHOLE, None, 900.0, None, 0),
-        (WHOLE, None, 2000.0, False, 1),
+        (KNOWN_MOTOR, None, 900.0, None, 0),
+        (KNOWN_MOTOR, None, 2000.0, False, 1),
     ],
 )
-def test_whether_it_can_be_built_is_told_as_far_as_it_is_known(
-    motor, mounting, demand, yes, open_points
-):
+def test_buildable_is_decided_as_far_as_it_is_known(motor, mounting, demand, yes, open_points):
     found = buildable(motor, mounting, (margin("bus power", demand, 1000.0),))
     assert (found.yes, len(found.open)) == (yes, open_points)
 
 
-def test_on_shapes_that_are_not_known_a_joint_that_fails_is_a_fault_and_a_collision_is_not():
-    """A trunk of unknown shape is a box of the robot's inertia, which a module may overlap."""
+def test_with_unknown_shapes_a_failing_joint_is_a_fault_and_a_collision_is_not():
+    """A trunk of unknown shape is a box with the robot's inertia, which a module may overlap."""
     unknown = replace(FREE, feet=(FootContact("left foot", "trunk", None, None, 0.0, held=None),))
     assert not unknown.known
     joint = Margin("shaft joint", 2.26, 1.37, "N m")
-    assert buildable(WHOLE, unknown, (), (joint,)).yes is False
+    assert buildable(KNOWN_MOTOR, unknown, (), (joint,)).yes is False
     overlaps = replace(unknown, nearest=Clearance("base", -0.035))
-    found = buildable(WHOLE, overlaps, ())
+    found = buildable(KNOWN_MOTOR, overlaps, ())
     assert (found.yes, len(found.open)) == (None, 1)
 
 
-def test_a_motor_that_lacks_figures_is_named_with_them():
-    found = buildable(replace(WHOLE, diameter=None, mass=None), FREE, ())
+def test_missing_data_of_a_motor_are_named():
+    found = buildable(replace(KNOWN_MOTOR, diameter=None, mass=None), FREE, ())
     (point,) = found.open
     assert found.yes is False
-    assert point.what == f"no source gives the body diameter and mass of {WHOLE.name}"
+    assert point.what == f"no source gives the body diameter and mass of {KNOWN_MOTOR.name}"
     assert "--motors" in point.cure
 
 
 @pytest.mark.parametrize(
     "name", ["wheel speed", "motor torque", "bus current, fed back", "hoop stress"]
 )
-def test_a_capacity_that_is_exceeded_is_open(name):
-    found = buildable(WHOLE, FREE, (margin(name, 1200.0, 1000.0),))
+def test_an_exceeded_capacity_is_an_open_point(name):
+    found = buildable(KNOWN_MOTOR, FREE, (margin(name, 1200.0, 1000.0),))
     assert found.yes is False
     assert found.open[0].what == f"{name}: 1,200 W required by drop, 1,000 W allowed"
 
@@ -73,13 +71,13 @@ def test_a_capacity_that_is_exceeded_is_open(name):
     [
         ("wheel speed", 1000.5, True),
         ("wheel speed", 1002.0, False),
-        # What only asks for a pause, or gives less torque.
+        # These only need a pause, or give less torque.
         ("rms current", 2000.0, True),
         ("voltage line", 2000.0, True),
     ],
 )
-def test_what_is_used_up_to_the_last_is_not_exceeded(name, demand, yes):
-    assert buildable(WHOLE, FREE, (margin(name, demand, 1000.0),)).yes is yes
+def test_a_capacity_is_exceeded_only_beyond_a_tolerance(name, demand, yes):
+    assert buildable(KNOWN_MOTOR, FREE, (margin(name, demand, 1000.0),)).yes is yes
 
 
 @pytest.mark.parametrize(
@@ -92,20 +90,20 @@ def test_what_is_used_up_to_the_last_is_not_exceeded(name, demand, yes):
         ),
     ],
 )
-def test_a_joint_that_does_not_hold_or_is_not_known_is_open(joint, words):
-    found = buildable(WHOLE, FREE, (), (joint,))
+def test_a_weak_or_unknown_joint_is_an_open_point(joint, words):
+    found = buildable(KNOWN_MOTOR, FREE, (), (joint,))
     assert found.yes is False
     assert words in found.open[0].what
 
 
 @pytest.mark.parametrize("name", ["shaft joint, screws in shear", "landing shock, foot"])
-def test_what_friction_or_a_milled_foot_makes_up_for_is_a_reserve(name):
-    spare = Margin(name, 2.0, 1.0, "N m")
-    assert buildable(WHOLE, FREE, (), (spare,)).yes is True
+def test_joints_backed_by_friction_or_a_milled_foot_are_no_fault(name):
+    backed = Margin(name, 2.0, 1.0, "N m")
+    assert buildable(KNOWN_MOTOR, FREE, (), (backed,)).yes is True
 
 
-def test_a_collision_is_open():
-    found = buildable(WHOLE, replace(FREE, nearest=Clearance("leg", -0.002)), ())
+def test_a_collision_is_an_open_point():
+    found = buildable(KNOWN_MOTOR, replace(FREE, nearest=Clearance("leg", -0.002)), ())
     assert found.yes is False
     assert "leg" in found.open[0].what
 
@@ -126,13 +124,13 @@ BALL = '<geometry><sphere radius="0.1"/></geometry>'
         (("collision", BALL), False),
     ],
 )
-def test_a_device_on_shapes_that_are_not_known_cannot_be_built(tmp_path, shapes, missing):
-    """A skin that is missing does no harm where the collision shapes are there."""
+def test_missing_meshes_make_a_device_unbuildable(tmp_path, shapes, missing):
+    """A missing visual does no harm where the collision shapes are known."""
     kinds = zip(shapes[::2], shapes[1::2], strict=True)
     file = tmp_path / "rover.urdf"
     file.write_text(LEGLESS.format("".join(f"<{kind}>{each}</{kind}>" for kind, each in kinds)))
     robot = read_robot(file, legs=())
-    found = buildable(WHOLE, FREE, (), (), robot)
+    found = buildable(KNOWN_MOTOR, FREE, (), (), robot)
     assert found.yes is not missing
     assert buildable(None, FREE, (), (), robot).yes is None
     assert any("the top of the trunk is not known" in each for each in robot.warnings) is missing
@@ -143,20 +141,20 @@ def test_a_device_on_shapes_that_are_not_known_cannot_be_built(tmp_path, shapes,
 
 
 @pytest.mark.parametrize(("visual", "missing"), [(MESH.format("skin"), True), (BALL, False)])
-def test_what_is_amiss_with_the_feet_may_be_a_mesh_of_the_trunk(tmp_path, visual, missing):
-    """Feet in the air over a trunk whose skin was not found: the skin is asked for first."""
+def test_a_missing_mesh_of_the_trunk_is_named_before_loose_feet(tmp_path, visual, missing):
+    """Feet may hang in the air because the trunk's visual was not found."""
     file = tmp_path / "rover.urdf"
     file.write_text(LEGLESS.format(f"<collision>{BALL}</collision><visual>{visual}</visual>"))
     loose = FootContact("left foot", "trunk", 0.0, inf, 0.0, held=False)
-    found = buildable(WHOLE, replace(FREE, feet=(loose,)), (), (), read_robot(file, legs=()))
+    found = buildable(KNOWN_MOTOR, replace(FREE, feet=(loose,)), (), (), read_robot(file, legs=()))
     cures = [point.cure for point in found.open]
     assert "--position" in cures[-1]
     assert cures[:-1] == (["give --package-path rover=DIR"] if missing else [])
 
 
 @pytest.mark.parametrize(("collides", "missing"), [(1, True), (0, False)])
-def test_meshes_that_an_mjcf_lacks_count_too(tmp_path, collides, missing):
-    """One that is only to look at does no harm beside a box that collides."""
+def test_missing_meshes_of_an_mjcf_count_too(tmp_path, collides, missing):
+    """A visual mesh does no harm beside a box for collisions."""
     file = tmp_path / "rover.xml"
     file.write_text(
         '<mujoco><asset><mesh name="hull" file="hull.stl"/></asset><worldbody><body name="trunk">'
@@ -164,7 +162,7 @@ def test_meshes_that_an_mjcf_lacks_count_too(tmp_path, collides, missing):
         '<geom type="box" size="0.1 0.1 0.1"/><geom type="mesh" mesh="hull" '
         f'contype="{collides}" conaffinity="{collides}"/></body></worldbody></mujoco>'
     )
-    found = buildable(WHOLE, FREE, (), (), read_robot(file, legs=()))
+    found = buildable(KNOWN_MOTOR, FREE, (), (), read_robot(file, legs=()))
     assert found.yes is not missing
     if missing:
         assert found.open[0].cure == f"put them where the model names them, below {tmp_path}"

@@ -1,4 +1,4 @@
-"""Which way a device is designed, and by which criterion its incidence goes."""
+"""Designs with a motor or by the bound, and the criterion of their incidence."""
 
 import re
 from dataclasses import replace
@@ -33,41 +33,41 @@ from ocs_design.workflows.pareto import read_task
 
 
 @pytest.mark.parametrize("motor", ["none", MOTOR])
-def test_the_total_is_robot_and_device_braked(motor):
-    task, found = design_with_motor(motor)
-    expected = braked_inertia(task.robot, found.device)
-    assert found.sized.total.mass == pytest.approx(expected.mass, rel=1e-12)
-    np.testing.assert_allclose(found.sized.total.com, expected.com, rtol=0.0, atol=1e-12)
-    np.testing.assert_allclose(found.sized.total.inertia, expected.inertia, rtol=1e-7, atol=1e-12)
+def test_the_total_is_the_robot_with_its_braked_device(motor):
+    task, design = design_with_motor(motor)
+    total, expected = design.sized.total, braked_inertia(task.robot, design.device)
+    assert total.mass == pytest.approx(expected.mass, rel=1e-12)
+    np.testing.assert_allclose(total.com, expected.com, rtol=0.0, atol=1e-12)
+    np.testing.assert_allclose(total.inertia, expected.inertia, rtol=1e-7, atol=1e-12)
 
 
 @pytest.mark.slow
-def test_the_incidence_of_the_robot_alone_does_not_count_the_plate():
+def test_the_incidence_of_the_robot_alone_excludes_the_plate():
     task = solo12_task(motor__name="Antigravity MN5006 KV450")
-    found = design_device(task)
-    assert found.device.plate is not None
-    alone = found.sized.incidence_by_criterion_robot[Criterion.EQUAL_RATE]
+    design = design_device(task)
+    assert design.device.plate is not None
+    alone = design.sized.incidence_by_criterion_robot[Criterion.EQUAL_RATE]
     assert alone == pytest.approx(equal_rate(task.robot.inertia), rel=1e-12)
 
 
 @pytest.mark.slow
-def test_wheels_that_a_brake_stops_turn_no_faster_than_their_joint_takes():
-    """J W / t of the rotor goes through it; the motor alone would turn faster than that."""
+def test_the_shaft_joint_limits_the_speed_of_braked_wheels():
+    """It carries J W / t of the rotor; the motor could turn faster."""
     task = solo12_task(
         motor__name="XING2 2207 KV1855",
         requirement__pivot="0,0,-0.272 along left",
         requirement__stand_up="pitch 20deg by brake",
     )
     (climb,) = task.resolved.requirement.maneuvers
-    found = design_device(task).device
-    joint = next(each for each in joints_of(found) if each.name == SHAFT_JOINT)
-    drive = found.motor
-    most = joint.capacity * climb.stop / (1.5 * drive.rotor_inertia)
-    assert drive.speed_max <= most * (1.0 + 1e-9)
-    assert most < min(drive.no_load_speed, speed_limit(motor(drive.name)))
+    device = design_device(task).device
+    joint = next(each for each in joints_of(device) if each.name == SHAFT_JOINT)
+    drive = device.motor
+    speed_max = joint.capacity * climb.stop / (1.5 * drive.rotor_inertia)
+    assert drive.speed_max <= speed_max * (1.0 + 1e-9)
+    assert speed_max < min(drive.no_load_speed, speed_limit(motor(drive.name)))
 
 
-def test_what_was_minimised_is_the_device_or_one_rim():
+def test_the_objective_is_the_mass_of_the_device_or_of_one_rim():
     _, bound = design_with_motor("none")
     assert bound.choice is None
     assert bound.sized.optimum.objective == bound.device.flywheel.mass
@@ -78,23 +78,22 @@ def test_what_was_minimised_is_the_device_or_one_rim():
 
 
 @pytest.mark.parametrize("motor", ["none", pytest.param(MOTOR, marks=pytest.mark.slow)])
-def test_an_incidence_by_hand_is_kept(motor):
-    _, found = design_with_motor(motor, alpha=0.4)
-    assert (found.criterion, found.device.incidence) == ("by hand", 0.4)
+def test_a_specified_incidence_is_kept(motor):
+    _, design = design_with_motor(motor, alpha=0.4)
+    assert (design.criterion, design.device.incidence) == ("by hand", 0.4)
 
 
 @pytest.mark.parametrize("motor", ["none", MOTOR])
-def test_equal_rate_is_that_of_robot_and_device(motor):
-    """tan(alpha) = I_roll / I_pitch; it is the default."""
-    task, found = design_with_motor(motor)
-    roll, pitch, _ = np.diag(braked_inertia(task.robot, found.device).inertia)
-    assert found.criterion == "equal-rate"
-    assert found.device.incidence == pytest.approx(np.arctan(roll / pitch), abs=1e-8)
+def test_default_incidence_gives_equal_rates_of_robot_and_device(motor):
+    """tan(alpha) = I_roll / I_pitch."""
+    task, design = design_with_motor(motor)
+    roll, pitch, _ = np.diag(braked_inertia(task.robot, design.device).inertia)
+    assert design.criterion == "equal-rate"
+    assert design.device.incidence == pytest.approx(np.arctan(roll / pitch), abs=1e-8)
 
 
 @pytest.mark.slow
-def test_a_motor_weighs_more_than_wheels_alone():
-    """And what it weighs, the wheels have to turn too."""
+def test_a_motor_adds_its_mass_and_inertia():
     _, bound = design_with_motor("none", alpha=0.4)
     _, chosen = design_with_motor(alpha=0.4)
     assert chosen.device.mass > bound.device.mass + chosen.device.motor.mass
@@ -102,24 +101,23 @@ def test_a_motor_weighs_more_than_wheels_alone():
 
 
 @pytest.mark.slow
-def test_feet_of_a_heavy_device_are_as_thick_as_its_shock_asks_for():
-    """To 0.1 mm, and 0.2 mm that are left as they are; all of it is weighed."""
+def test_feet_of_a_heavy_device_are_as_thick_as_the_landing_shock_requires():
+    """To 0.1 mm, plus 0.2 mm within which the thickness is not changed; the mass counts it."""
     robot = RobotSection(mass=12.0, inertia=(0.1, 0.25, 0.3))
     task = read_task(Specification(robot=robot, motor=MotorSection(name="U8 Lite L KV110")))
     device = design_device(task).device
-    thick = device.foot_plate
-    assert thick > 0.006
-    bears = foot_shock(foot_of(device), device.flywheel.mass + device.carrier.mass)
-    assert SHOCK <= bears <= SHOCK * (thick / (thick - 3e-4)) ** 2
-    whole = sum(row.quantity * row.mass for row in bill_rows(device))
-    assert whole == pytest.approx(device.mass, rel=1e-9)
+    thickness = device.foot_plate
+    assert thickness > 0.006
+    capacity = foot_shock(foot_of(device), device.flywheel.mass + device.carrier.mass)
+    assert SHOCK <= capacity <= SHOCK * (thickness / (thickness - 3e-4)) ** 2
+    bill_mass = sum(row.quantity * row.mass for row in bill_rows(device))
+    assert bill_mass == pytest.approx(device.mass, rel=1e-9)
 
 
 @pytest.mark.parametrize("motor", ["none", MOTOR])
 @pytest.mark.exhaustive
-def test_a_device_may_weigh_as_much_as_the_lightest_and_no_less(motor):
-    _, free = design_with_motor(motor)
-    mass = free.device.mass
+def test_a_mass_limit_below_the_lightest_device_is_infeasible(motor):
+    mass = design_with_motor(motor)[1].device.mass
     assert design_with_motor(motor, mass_max=mass * 1.001)[1].device.mass == pytest.approx(
         mass, rel=1e-12
     )
@@ -131,79 +129,79 @@ def test_a_device_may_weigh_as_much_as_the_lightest_and_no_less(motor):
 
 
 @pytest.mark.slow
-def test_guard_rings_hold_the_wheel_that_they_were_sized_with():
-    """Device, bill and burst go together: the ring is weighed, and thick enough for this wheel."""
-    _, free = design_with_motor()
-    task, found = design_with_motor(guard="containing")
-    device, wall = found.device, burst_of(found.device).steel
+def test_guard_rings_contain_the_wheel_that_they_were_sized_with():
+    """Device, bill and burst agree: the mass counts the ring, which is thick enough."""
+    _, unguarded = design_with_motor()
+    task, design = design_with_motor(guard="containing")
+    device, wall = design.device, burst_of(design.device).steel
     assert wall <= device.guard_wall <= wall + 2e-4
     rows = {row.part: row for row in bill_rows(device)}
     inside = device.flywheel.outer_radius + CLEARANCE - GUARD_GAP
     height = device.flywheel.height + 2.0 * CLEARANCE
     area = np.pi * ((inside + device.guard_wall) ** 2 - inside**2)
     assert rows["guard ring"].mass == pytest.approx(7850.0 * area * height, rel=1e-9)
-    whole = sum(row.quantity * row.mass for row in bill_rows(device))
-    assert whole == pytest.approx(device.mass, rel=1e-9)
-    assert device.mass > free.device.mass + 2.0 * rows["guard ring"].mass
+    bill_mass = sum(row.quantity * row.mass for row in bill_rows(device))
+    assert bill_mass == pytest.approx(device.mass, rel=1e-9)
+    assert device.mass > unguarded.device.mass + 2.0 * rows["guard ring"].mass
     total = braked_inertia(task.robot, device)
-    np.testing.assert_allclose(found.sized.total.inertia, total.inertia, rtol=1e-7, atol=1e-12)
+    np.testing.assert_allclose(design.sized.total.inertia, total.inertia, rtol=1e-7, atol=1e-12)
 
 
 @pytest.mark.slow
-def test_a_device_is_sized_for_kicks_about_the_centre_of_mass_of_all():
-    """From above, for less than the robot alone would have to take up, and so it is lighter."""
-    asked = RequirementSection(jump_height=(0.3,), kick=(Kick(1.0, (0.1, 0.1, 0.03)),))
+def test_kicks_act_about_the_centre_of_mass_of_robot_and_device():
+    """It is higher than the robot's own, so that kicks from above have a smaller lever."""
+    requirement = RequirementSection(jump_height=(0.3,), kick=(Kick(1.0, (0.1, 0.1, 0.03)),))
     task = solo12().with_specification(
-        Specification(requirement=asked, motor=MotorSection(name=MOTOR))
+        Specification(requirement=requirement, motor=MotorSection(name=MOTOR))
     )
-    found = design_device(task)
-    own, alone = found.requirement.kicks, task.resolved.requirement.kicks
-    assert own == pytest.approx(task.resolved.requirement.on(found.sized.total).kicks)
-    assert found.choice.problem.requirement.kicks == pytest.approx(own, rel=0.01, abs=1e-9)
-    assert abs(own[0, 0]) < 0.9 * abs(alone[0, 0])
+    design = design_device(task)
+    kicks, robot_kicks = design.requirement.kicks, task.resolved.requirement.kicks
+    assert kicks == pytest.approx(task.resolved.requirement.on(design.sized.total).kicks)
+    assert design.choice.problem.requirement.kicks == pytest.approx(kicks, rel=0.01, abs=1e-9)
+    assert abs(kicks[0, 0]) < 0.9 * abs(robot_kicks[0, 0])
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("kilograms", "stays"), [(0.05, False), (0.01, True)])
-def test_a_device_that_is_held_another_way_each_time_is_refused(monkeypatch, kilograms, stays):
-    """Unless what changes is a twentieth of it at the most; 0.49 kg weighs this one.
+@pytest.mark.parametrize(("change", "accepted"), [(0.05, False), (0.01, True)])
+def test_a_mount_that_alternates_between_iterations_is_refused(monkeypatch, change, accepted):
+    """Unless its mass changes by at most 5 % of the device's, which is 0.49 kg here.
 
-    The heavier footing is told, of 20 g more than what changes.
+    The error names the mass of the heavier mount, 20 g more than the change.
     """
-    task, found = design_with_motor(alpha=0.4)
-    place, device = found.choice.problem.place, found.device.mass
-    assert (kilograms > 0.05 * device) is not stays
+    task, design = design_with_motor(alpha=0.4)
+    place, device_mass = design.choice.problem.place, design.device.mass
+    assert (change > 0.05 * device_mass) is not accepted
     masses = [
-        MassProperties(each, task.robot.com, np.zeros((3, 3))) for each in (0.02 + kilograms, 0.02)
+        MassProperties(mass, task.robot.com, np.zeros((3, 3))) for mass in (0.02 + change, 0.02)
     ]
     masts = [SimpleNamespace(mass_properties=lambda each=each: each) for each in masses]
-    held = cycle([Footing(place, mast) for mast in masts])
+    footings = cycle([Footing(place, mast) for mast in masts])
 
-    def held_otherwise(search, problem, _device):
-        return replace(problem, robot=next(held).carried(search.robot.mass_properties))
+    def alternating_footing(search, problem, _device):
+        return replace(problem, robot=next(footings).carried(search.robot.mass_properties))
 
-    monkeypatch.setattr(on_robot.OnRobot, "_own_footing", held_otherwise)
+    monkeypatch.setattr(on_robot.OnRobot, "_own_footing", alternating_footing)
     refused = None
     try:
         design_device(task)
     except on_robot.NeverHeld as error:
         refused = error
-    assert (refused is None) is stays
+    assert (refused is None) is accepted
     if refused is not None:
         mass = re.search(
             r"A device of ([\d.]+) kg needs a mount of 0.07 kg on the trunk,", refused.message
         )
-        assert float(mass[1]) == pytest.approx(device, rel=0.2)
+        assert float(mass[1]) == pytest.approx(device_mass, rel=0.2)
         assert refused.binding == ("mount",)
 
 
-def test_layouts_that_would_survive_and_have_no_device_say_why(monkeypatch):
-    """It was told that there is none, and not by how much they miss it."""
+def test_infeasible_layouts_that_would_survive_a_failure_give_their_reasons(monkeypatch):
+    """The message once named the layouts without the shortfall of each."""
 
-    def none(task, **_):
+    def infeasible_device(task, **_):
         raise infeasible(f"{task.specification.ocs.layout} lacks 20 %.")
 
-    monkeypatch.setattr("ocs_design.sizing.design.design_device", none)
+    monkeypatch.setattr("ocs_design.sizing.design.design_device", infeasible_device)
     task = solo12()
-    told = survivors(task.specification, task.robot, lambda _: None)
-    assert "triad: triad lacks 20 %; double-pair: double-pair lacks 20 %; pyramid: " in told
+    text = survivors(task.specification, task.robot, lambda _: None)
+    assert "triad: triad lacks 20 %; double-pair: double-pair lacks 20 %; pyramid: " in text

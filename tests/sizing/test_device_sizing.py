@@ -1,4 +1,4 @@
-"""Both wheels on their robot: the fixed point from scratch, scaling laws, and failures."""
+"""Two wheels on their robot: the fixed point recomputed independently, and failures."""
 
 from dataclasses import replace
 
@@ -24,7 +24,7 @@ SOLO12 = MassProperties(
     [0.002, 0.0, -0.024],
     [[0.0300, 0.0001, 0.0004], [0.0001, 0.0515, -0.0002], [0.0004, -0.0002, 0.0680]],
 )
-ROOM = envelope_with(
+ENVELOPE = envelope_with(
     0.05, 0.01, inner_radius_min=0.005, height_min=0.002, wall_min=0.002, mass_max=0.25,
     stress_safety=2.0,
 )  # fmt: skip
@@ -38,20 +38,20 @@ def place(outer_radius, height):
     return np.array([[0.01, 0.07, 0.1 + outer_radius], [0.01, -0.07, 0.1 + outer_radius]])
 
 
-def asks(*maneuvers, rate_change=None, wheel_speed_max=SPEED, spin_inertia=None):
+def require(*maneuvers, rate_change=None, wheel_speed_max=SPEED, spin_inertia=None):
     return Requirement(maneuvers, rate_change, wheel_speed_max, spin_inertia, 0.25)
 
 
-def problem_of(requirement, envelope=ROOM, *, incidence=None, criterion=Criterion.EQUAL_RATE):
+def problem_of(requirement, envelope=ENVELOPE, *, incidence=None, criterion=Criterion.EQUAL_RATE):
     return DeviceProblem(SOLO12, requirement, envelope, STEEL, place, incidence, criterion)
 
 
-def size(*asked, **options):
-    return size_device(problem_of(*asked, **options))
+def size(*arguments, **options):
+    return size_device(problem_of(*arguments, **options))
 
 
 def by_pinocchio(rim, centers, incidence):
-    """Robot and wheels, each wheel a full cylinder less its bore, joined by Pinocchio."""
+    """Total of robot and wheels by Pinocchio, each wheel a cylinder less its bore."""
     total = pinocchio.Inertia(SOLO12.mass, SOLO12.com, SOLO12.inertia)
     for center, axis in zip(centers, module_axes(incidence).T, strict=True):
         rotation = pinocchio.Quaternion.FromTwoVectors(np.array([0.0, 0.0, 1.0]), axis).matrix()
@@ -69,16 +69,16 @@ def by_pinocchio(rim, centers, incidence):
     return total
 
 
-def coupled(inertia):
-    """Roll momentum of a unit rate of pitch with no momentum of yaw."""
+def coupling(inertia):
+    """Roll momentum per pitch rate without momentum about yaw [kg m^2]."""
     rate = np.array([0.0, 1.0, -inertia[2, 1] / inertia[2, 2]])
     return (inertia @ rate)[0]
 
 
 @pytest.mark.parametrize("criterion", [Criterion.EQUAL_RATE, Criterion.SIMULTANEOUS])
 def test_fixed_point_from_scratch(criterion):
-    """Recompute total inertia, incidence and every demand from the sized wheels alone."""
-    requirement = asks(*MANEUVERS, rate_change=3.0)
+    """Total inertia, incidence and all demands, recomputed from the sized wheels alone."""
+    requirement = require(*MANEUVERS, rate_change=3.0)
     found = size(requirement, criterion=criterion)
     total = by_pinocchio(found.rim, found.centers, found.incidence)
     assert found.total.mass == pytest.approx(total.mass, rel=1e-12)
@@ -86,7 +86,7 @@ def test_fixed_point_from_scratch(criterion):
     assert found.total.inertia == pytest.approx(total.inertia, rel=1e-10, abs=1e-15)
 
     inertia = total.inertia
-    product = abs(coupled(inertia))
+    product = abs(coupling(inertia))
     impulse = np.array([0.2, 0.8]) * 0.05
     fall = np.sqrt(2.0 * 0.75 / 9.81)
     drop = inertia[1, 1] * 2.0 * np.radians(30.0) / fall
@@ -97,8 +97,8 @@ def test_fixed_point_from_scratch(criterion):
 
     sine, cosine = np.sin(incidence), np.cos(incidence)
     turned = by_pinocchio(found.rim, found.centers, 0.0).inertia
-    # Roll, out of the wheels' reach, follows pitch and takes some of it.
-    flip = (turned[1, 1] - coupled(turned) ** 2 / turned[0, 0]) * 2.0 * np.pi
+    # Roll, which the wheels do not control, follows pitch and reduces its inertia.
+    flip = (turned[1, 1] - coupling(turned) ** 2 / turned[0, 0]) * 2.0 * np.pi
     expected = {
         "push": impulse[0] / sine + impulse[1] / cosine,
         "drop": drop * (1.0 / cosine + product / inertia[1, 1] / sine),
@@ -114,42 +114,44 @@ def test_fixed_point_from_scratch(criterion):
     assert found.iterations < 50
 
 
-def test_given_incidence_is_kept():
-    found = size(asks(rate_change=1.0), incidence=0.7)
+def test_specified_incidence_is_kept():
+    found = size(require(rate_change=1.0), incidence=0.7)
     assert found.incidence == 0.7
     assert {demand.incidence for demand in found.demands} == {0.7}
 
 
-def test_given_spin_inertia_is_kept():
-    found = size(asks(*MANEUVERS, spin_inertia=1.5e-4))
+def test_specified_spin_inertia_is_kept():
+    found = size(require(*MANEUVERS, spin_inertia=1.5e-4))
     assert found.spin_inertia == 1.5e-4
     assert max(demand.spin_inertia for demand in found.demands) > 1.5e-4
 
 
-def test_a_maneuver_turned_by_hand_has_no_say_in_the_incidence():
-    with_flip = size(asks(DROP, PUSH, BACK_FLIP, spin_inertia=1e-4), criterion="weighted")
-    without = size(asks(DROP, PUSH, spin_inertia=1e-4), criterion="weighted")
+def test_maneuvers_with_modules_turned_by_hand_do_not_affect_the_incidence():
+    with_flip = size(require(DROP, PUSH, BACK_FLIP, spin_inertia=1e-4), criterion="weighted")
+    without = size(require(DROP, PUSH, spin_inertia=1e-4), criterion="weighted")
     assert with_flip.incidence == without.incidence
 
 
-def test_less_than_the_smallest_rim_gives_the_smallest_rim():
-    found = size(asks(rate_change=1e-4))
+def test_a_tiny_requirement_gives_the_smallest_rim():
+    found = size(require(rate_change=1e-4))
     assert max(demand.spin_inertia for demand in found.demands) < found.spin_inertia
-    assert found.rim.height == pytest.approx(ROOM.height_min, rel=1e-6)
-    assert found.rim.inner_radius == pytest.approx(ROOM.inner_radius_min, rel=1e-6)
-    assert found.rim.outer_radius - found.rim.inner_radius == pytest.approx(ROOM.wall_min, rel=1e-6)
+    assert found.rim.height == pytest.approx(ENVELOPE.height_min, rel=1e-6)
+    assert found.rim.inner_radius == pytest.approx(ENVELOPE.inner_radius_min, rel=1e-6)
+    assert found.rim.outer_radius - found.rim.inner_radius == pytest.approx(
+        ENVELOPE.wall_min, rel=1e-6
+    )
 
 
-def test_nothing_asked():
+def test_an_empty_requirement_is_refused():
     with pytest.raises(UsageError, match="nothing is required"):
-        size(asks())
+        size(require())
 
 
 @pytest.mark.slow
-def test_infeasible_by_its_robot():
-    """Each relaxation is verified by sizing anew, and none smaller would do."""
-    envelope = replace(ROOM, outer_radius_max=0.03, mass_max=0.2)
-    requirement = asks(*MANEUVERS)
+def test_relaxations_of_an_infeasible_problem():
+    """Sizing succeeds with each relaxation, and fails with a smaller one."""
+    envelope = replace(ENVELOPE, outer_radius_max=0.03, mass_max=0.2)
+    requirement = require(*MANEUVERS)
     with pytest.raises(Infeasible) as caught:
         size(requirement, envelope)
     error = caught.value
@@ -160,15 +162,14 @@ def test_infeasible_by_its_robot():
     problem = problem_of(requirement, envelope)
     by_name = {limit.name: limit for limit in (*RIM_LIMITS, TOP_SPEED)}
     for name, value in error.relaxations.items():
-        mended = problem.with_limit(by_name[name], value)
-        size_device(mended)
+        size_device(problem.with_limit(by_name[name], value))
         tighter = by_name[name].loosened(value, 1.0 / (1.0 + 3.0 * DEVICE_PRECISION))
         assert find_fixed_point(problem.with_limit(by_name[name], tighter)).shape is None
 
 
-def test_a_given_spin_inertia_is_not_mended_by_wheel_speed():
+def test_wheel_speed_is_no_relaxation_for_a_specified_spin_inertia():
     with pytest.raises(Infeasible) as caught:
-        size(asks(rate_change=1.0, spin_inertia=1e-2))
+        size(require(rate_change=1.0, spin_inertia=1e-2))
     assert "wheel_speed_max" not in caught.value.relaxations
     assert caught.value.required_spin_inertia == 1e-2
     assert caught.value.message.startswith("No rim of steel")
@@ -177,8 +178,8 @@ def test_a_given_spin_inertia_is_not_mended_by_wheel_speed():
 @pytest.mark.parametrize(
     ("criterion", "axis"), [(Criterion.PITCH_ONLY, "roll"), (Criterion.ROLL_ONLY, "pitch")]
 )
-def test_axis_out_of_reach(criterion, axis):
+def test_an_uncontrolled_axis_is_infeasible(criterion, axis):
     with pytest.raises(Infeasible, match=f"{axis} momentum") as caught:
-        size(asks(rate_change=1.0), criterion=criterion)
+        size(require(rate_change=1.0), criterion=criterion)
     assert caught.value.binding == ("incidence",)
     assert np.isfinite(caught.value.required_spin_inertia)

@@ -1,4 +1,4 @@
-"""Searches that take longest where they fail are not made again for what is harder to hold."""
+"""Searches that failed are not repeated for devices that are harder to hold."""
 
 from dataclasses import replace
 
@@ -14,27 +14,27 @@ FEET = Feet(0.0, (), SENSES, 0.07, 0.04, 0.11, 0.12, 3.0)
 
 
 @pytest.mark.parametrize("name", ["radius", "slot_radius", "reach", "height", "mass"])
-def test_only_what_is_larger_in_all_is_covered(name):
-    looked, robot, failed = [], read_robot(SOLO12), FailedSearches()
+def test_a_failed_search_covers_only_feet_that_are_larger_in_every_way(name):
+    searched, robot, failed = [], read_robot(SOLO12), FailedSearches()
 
-    def nothing(_robot, feet, _layout):
-        looked.append(feet)
+    def search(_robot, feet, _layout):
+        searched.append(feet)
 
     larger, smaller = (replace(FEET, **{name: by * getattr(FEET, name)}) for by in (1.1, 0.9))
     for count, feet in ((1, FEET), (1, larger), (2, smaller), (3, replace(FEET, slopes=(1, 1)))):
-        assert failed.found(nothing, robot, feet, PAIR) is None
-        assert len(looked) == count
+        assert failed.found(search, robot, feet, PAIR) is None
+        assert len(searched) == count
 
 
-def test_a_mast_that_a_smaller_module_had_not_is_not_looked_for(monkeypatch):
-    robot, looked, failed = read_robot(SOLO12), [], FailedSearches()
+def test_no_mast_is_searched_where_a_smaller_module_had_none(monkeypatch):
+    robot, searched, failed = read_robot(SOLO12), [], FailedSearches()
 
-    def nothing(*asked):
-        looked.append(asked)
+    def search(*arguments):
+        searched.append(arguments)
 
-    monkeypatch.setattr(mast, "_mast_spot", nothing)
+    monkeypatch.setattr(mast, "_mast_spot", search)
     pairs = Layout(LayoutName("double-pair"))
     for mass, layout in ((3.0, PAIR), (4.0, PAIR), (2.0, PAIR), (2.5, PAIR), (4.0, pairs)):
         assert mast.footing_behind(robot, replace(FEET, mass=mass), layout, failed) is None
-    # Rounded up by 2 % at most.
-    assert [feet.mass for _, feet, *_ in looked] == pytest.approx([3.0, 2.0, 4.0], rel=0.03)
+    # Masses are rounded up by at most 2 %.
+    assert [feet.mass for _, feet, *_ in searched] == pytest.approx([3.0, 2.0, 4.0], rel=0.03)

@@ -1,4 +1,4 @@
-"""Blocks that have a round trunk's own form: contact by meshes, mass, strength, what is refused."""
+"""Mast blocks formed to a round trunk: contact by meshes, mass, strength, and limits."""
 
 from dataclasses import replace
 from math import pi
@@ -41,7 +41,7 @@ HEAD = inertial(2, "0.01 0.01 0.01") + solid('<box size="0.2 0.3 0.2"/>')
 
 @coarse_mast_search()
 def standing(folder, shape):
-    """A trunk of that shape with a head on top, where nothing else has room, and its device."""
+    """A trunk of this shape with a head on top that leaves no other room, and its device."""
     path = folder / "round.urdf"
     path.write_bytes(topped(inertial(20, "0.3 0.3 0.1") + shape, HEAD, "0 0 0.2"))
     robot = read_robot(path, trunk="base")
@@ -54,12 +54,12 @@ def on_cylinder(tmp_path_factory):
 
 
 def block_in_trunk(plate):
-    """The block as a mesh in B, of so many chords that its holes hardly weigh more."""
+    """The block as a mesh in B, with chords fine enough for the mass of its holes."""
     mesh = part_mesh(block_part(plate, plate.relief), 256)
     return trimesh.Trimesh(mesh.vertices + plate.position, mesh.triangles)
 
 
-def test_a_round_trunk_carries_a_mast_by_a_block_of_its_form(on_cylinder):
+def test_a_round_trunk_carries_a_mast_by_a_formed_block(on_cylinder):
     robot, device = on_cylinder
     plate = device.plate
     assert plate.mast.formed
@@ -77,8 +77,8 @@ def test_a_round_trunk_carries_a_mast_by_a_block_of_its_form(on_cylinder):
     check_device(device)
 
 
-def test_the_block_touches_the_trunk_all_over_and_nowhere_cuts_into_it(on_cylinder):
-    """By what both have in common, and by the corners of the trunk's own mesh."""
+def test_the_block_touches_the_trunk_everywhere_without_overlap(on_cylinder):
+    """By the intersection of both meshes, and by the vertices of the trunk's mesh."""
     robot, device = on_cylinder
     plate, corners = device.plate, trunk_triangles(robot)
     trunk = trimesh.Trimesh(corners.reshape(-1, 3), np.arange(3 * len(corners)).reshape(-1, 3))
@@ -92,19 +92,19 @@ def test_the_block_touches_the_trunk_all_over_and_nowhere_cuts_into_it(on_cylind
         for each in (block, trunk)
     ]
     assert Manifold.batch_boolean(solids, OpType.Intersect).volume() == 0.0
-    # The trunk is a prism of as many sides as its map is made of.
+    # The trunk is a prism with as many sides as its height map has.
     behind = trunk.vertices[(trunk.vertices[:, 0] <= 1e-9) & (trunk.vertices[:, 2] > 0.0)]
     behind = behind[np.hypot(*behind[:, :2].T) > 0.5 * RADIUS]
     order = np.argsort(behind[:, 1])
     random, half, (low, high) = np.random.default_rng(0), mast.side / 2.0, plate.block
     y, z = random.uniform(-half, half, 2000), random.uniform(low, high, 2000)
     face = plate.position[0] + mast.face + plate.relief.height(y, z)
-    off = np.interp(y, behind[order, 1], behind[order, 0]) - face
-    assert off.min() >= 0.0
-    assert off.max() <= TOUCH
+    gap = np.interp(y, behind[order, 1], behind[order, 0]) - face
+    assert gap.min() >= 0.0
+    assert gap.max() <= TOUCH
 
 
-def test_block_and_device_weigh_what_their_meshes_do(on_cylinder):
+def test_mass_properties_agree_with_the_meshes(on_cylinder):
     _, device = on_cylinder
     plate = device.plate
     solid, own = block_in_trunk(plate), block_part(plate, plate.relief).mass_properties()
@@ -118,34 +118,33 @@ def test_block_and_device_weigh_what_their_meshes_do(on_cylinder):
     assert device.mass > plate.mass
 
 
-def test_screws_reach_through_the_block_where_it_is_thickest(on_cylinder):
+def test_screws_are_long_enough_for_the_thickest_part_of_the_block(on_cylinder):
     _, device = on_cylinder
-    plate, depth = device.plate, device.plate.screw.diameter
+    plate, thread = device.plate, device.plate.screw.diameter
     for (y, z), length in zip(plate.trunk, plate.screw_lengths, strict=True):
         angles = np.linspace(0.0, 2.0 * pi, 90)
         radius = plate.screw.clearance_hole / 2.0
-        deep = plate.relief.height(y + radius * np.cos(angles), z + radius * np.sin(angles)).max()
-        assert length >= plate.mast.side + deep + depth - 1e-4
+        block = plate.relief.height(y + radius * np.cos(angles), z + radius * np.sin(angles)).max()
+        assert length >= plate.mast.side + block + thread - 1e-4
 
 
-def test_slopes_are_those_of_the_trunk_and_shear_its_screws(on_cylinder):
-    """On a cylinder the slope to the side is y over the height; both sides cancel."""
+def test_slopes_follow_the_trunk_and_load_the_screws_in_shear(on_cylinder):
+    """On a cylinder the lateral slope is y / sqrt(R^2 - y^2); both sides cancel."""
     _, device = on_cylinder
     plate = device.plate
     for (y, _), (left, up) in zip(plate.trunk, plate.slopes, strict=True):
-        # The block is thicker where the trunk is farther off.
+        # The block is thicker where the trunk is farther away.
         assert left == pytest.approx(y / np.sqrt(RADIUS**2 - y**2), abs=0.05)
         assert up == pytest.approx(0.0, abs=1e-6)
     assert np.abs(plate.slopes.mean(axis=0)).max() < 0.02
-    held, force, arms = plate.screw, 1000.0, (0.1, np.asarray(0.05))
+    thread, force, arms = plate.screw, 1000.0, (0.1, np.asarray(0.05))
     half = np.asarray(0.03), np.asarray(0.015)
-    plain = pattern_use(held, force, arms, half)
-    assert pattern_use(held, force, arms, half, 500.0) > plain
+    assert pattern_use(thread, force, arms, half, 500.0) > pattern_use(thread, force, arms, half)
 
 
 @pytest.mark.slow
-def test_a_trunk_that_is_too_steep_is_refused(tmp_path):
-    """A box that turns an edge backwards slopes by 45 degrees."""
+def test_a_trunk_that_is_too_steep_carries_no_block(tmp_path):
+    """A box with an edge at its back slopes by 45 degrees."""
     robot, device = standing(tmp_path, RIDGE)
     assert device.plate is None
     mounting = mounting_of(robot, device, (), robot.mass_properties)
@@ -153,9 +152,9 @@ def test_a_trunk_that_is_too_steep_is_refused(tmp_path):
     assert mounting_open_points(mounting)
 
 
-def test_steps_and_holes_are_refused_and_gentle_forms_are_not():
+def test_gentle_forms_are_accepted_and_steps_and_edges_are_not():
     def back(height):
-        """A trunk's back over a square of 0.2 m, of triangles."""
+        """Triangles of a trunk's back over a square of 0.2 m."""
         x, y = np.meshgrid(*2 * (np.linspace(-0.1, 0.1, 201),), indexing="ij")
         points = np.stack([x, y, height(x, y)], axis=-1)
         a, b, c, d = points[:-1, :-1], points[1:, :-1], points[1:, 1:], points[:-1, 1:]
@@ -164,9 +163,9 @@ def test_steps_and_holes_are_refused_and_gentle_forms_are_not():
         )
 
     bowl = back(lambda x, y: 0.1 - 0.5 * (x**2 + y**2) / 0.15)
-    found = front_of(bowl, 0.02, -0.03, 0.03)
-    assert found is not None
-    assert np.ptp(found) < DEPTH_MAX
+    front = front_of(bowl, 0.02, -0.03, 0.03)
+    assert front is not None
+    assert np.ptp(front) < DEPTH_MAX
     assert front_of(back(lambda x, _: np.where(x > 0.0, 0.1, 0.098)), 0.02, -0.03, 0.03) is None
     assert front_of(back(lambda x, _: 0.1 - abs(x)), 0.02, -0.03, 0.03) is None
     assert front_of(bowl, 0.02, 0.08, 0.14) is None
@@ -175,7 +174,7 @@ def test_steps_and_holes_are_refused_and_gentle_forms_are_not():
 @pytest.mark.parametrize(
     "changed", [{"formed": ((0.01, 0.01),)}, {"formed": ((0.01, 0.01), (0.01,))}, {"spacer": 0.02}]
 )
-def test_a_block_that_contradicts_itself_is_refused(on_cylinder, changed):
+def test_an_inconsistent_block_is_refused(on_cylinder, changed):
     _, device = on_cylinder
     mast = replace(device.plate.mast, **changed)
     with pytest.raises(OcsError, match=r"plate\.mast"):

@@ -1,4 +1,4 @@
-"""Where modules stand: on robots made for the purpose and on all the legged ones."""
+"""Places of modules: on synthetic robots and on all legged ones."""
 
 import numpy as np
 import pytest
@@ -23,34 +23,34 @@ ON_TOP = {
     "a1", "anymal", "anymal-kinova", "b1", "bolt", "go1", "go2", "hyq_no_sensors", "laikago",
     "quadruped", "simple_humanoid", "simple_humanoid_classical", "solo", "solo12",
 }  # fmt: skip
-"""Robots that have nothing over their trunk."""
+"""Robots without obstacles above the trunk."""
 
 BOX = inertial(10, "0.1 0.4 0.4") + solid('<box size="0.6 0.3 0.1"/>')
 MAST = inertial(0.01, "1e-5 1e-5 1e-5") + solid('<cylinder radius="0.02" length="0.2"/>', "0 0 0.1")
 
 
 @pytest.fixture
-def masted(tmp_path):
+def robot_with_mast(tmp_path):
     def read(x):
-        path = tmp_path / "masted.urdf"
+        path = tmp_path / "robot_with_mast.urdf"
         path.write_bytes(topped(BOX, MAST, f"{x} 0 0.05"))
         return read_robot(path, trunk="base")
 
     return read
 
 
-def test_a_mast_far_away_changes_nothing(masted):
-    robot = masted(0.28)
+def test_a_distant_mast_does_not_matter(robot_with_mast):
+    robot = robot_with_mast(0.28)
     found = place_free(robot, default_envelope(robot))
     assert (found.place, found.free) == (place_on_top(robot), True)
 
 
-def test_a_mast_in_the_middle_goes_between_the_modules(masted):
-    robot = masted(0.0)
+def test_a_mast_in_the_middle_is_between_the_modules(robot_with_mast):
+    robot = robot_with_mast(0.0)
     envelope = default_envelope(robot)
     found = place_free(robot, envelope)
     assert (found.face, found.free) == ("on top of", True)
-    # Balls 1.1 times as large as the module stand clear of the mast's radius, for every size.
+    # Spheres of 1.1 times the module's radius clear the mast, for every size.
     sizes = Sizes.of(envelope)
     for share in np.linspace(0.0, 1.0, 30):
         reach, standing = (1.0 - share) * np.array(sizes.smallest) + share * np.array(sizes.largest)
@@ -58,19 +58,19 @@ def test_a_mast_in_the_middle_goes_between_the_modules(masted):
         assert np.hypot(x, y) - 0.02 >= SPACING * reach - 1e-5
 
 
-def test_nearer_than_the_grid(masted):
+def test_a_place_is_refined_between_grid_points(robot_with_mast):
     """In front of the mast or behind it: x^2 + (1.1 s)^2 = (1.1 s + r)^2 for the largest s."""
-    robot = masted(0.0)
+    robot = robot_with_mast(0.0)
     largest = Sizes.of(default_envelope(robot)).largest
     found = place_free(robot, default_envelope(robot))
     x, y, _ = found.place.origins[0]
-    least = np.sqrt(2.0 * SPACING * largest.reach * 0.02 + 0.02**2)
+    nearest = np.sqrt(2.0 * SPACING * largest.reach * 0.02 + 0.02**2)
     assert y == 0.0
-    assert least - 1e-5 <= abs(x) <= least + 0.5 * largest.reach / 16.0
+    assert nearest - 1e-5 <= abs(x) <= nearest + 0.5 * largest.reach / 16.0
 
 
-def test_a_stated_position_is_kept(masted):
-    robot = masted(0.0)
+def test_a_specified_position_is_kept(robot_with_mast):
+    robot = robot_with_mast(0.0)
     envelope = default_envelope(robot)
     assert specified_place((0.1, 0.2, 0.3), robot, envelope) == place_at((0.1, 0.2, 0.3))
     assert specified_place(None, robot, envelope) == place_free(robot, envelope).place
@@ -88,7 +88,7 @@ def test_every_legged_robot_has_a_free_place(name):
     x, y, z = found.place.centers(size)[0]
     poses = collision.poses([{}, *drawn(landing_ranges(robot), 1500)[512:]])
     for side in (y, -y):
-        # Postures that were not tried find no more than the room around the module.
+        # Postures outside of the search do not reach the module itself either.
         ball = Ball(np.array([x, side, z]), size.reach)
         assert collision.nearest(ball, poses, others, within=0.0) is None
 
@@ -110,25 +110,25 @@ def test_on_top_the_modules_touch_neither_the_trunk_nor_each_other():
     assert centers[0, 2] - low == pytest.approx(SPACING * reach)
 
 
-def test_at_a_stated_position_nothing_moves():
+def test_a_specified_position_does_not_depend_on_the_size():
     np.testing.assert_array_equal(place_at((1, 2, 3))(0.05, 0.02), [[1, 2, 3], [1, -2, 3]])
 
 
-def test_arrays_as_numbers():
+def test_arrays_and_numbers_agree():
     outer, height = np.array([0.03, 0.05]), np.array([0.01, 0.02])
     arrays = PLACE.centers(wheel_size(outer, height))
     np.testing.assert_allclose(arrays, [PLACE(*size) for size in zip(outer, height, strict=True)])
 
 
-def test_the_sphere_that_is_swept_holds_housing_and_motor():
-    """Shell 3.6 mm outside the rim, the motor behind the foot's 5 mm."""
+def test_the_swept_sphere_encloses_housing_and_motor():
+    """Shell 3.6 mm outside of the rim, motor behind the 5 mm plate of the foot."""
     flat = module_size(0.04, 0.004, Behind(0.0, 0.0), 0.0)
     assert flat.reach == pytest.approx(np.hypot(0.0436, 0.0052))
     long = module_size(0.04, 0.004, Behind(0.05, 0.02), 0.0)
     assert long.reach == pytest.approx(np.hypot(0.0052 + 0.005 + 0.05, 0.02))
     wide = module_size(0.01, 0.03, Behind(0.0, 0.0), 0.0)
     assert wide.reach == Foot(Housing(0.01, 0.03)).base_radius > 0.04
-    # Rim, shell, 2 mm of air, and the foot's base of 3 mm.
+    # Rim, shell, 2 mm of clearance, and the foot's base of 3 mm.
     assert (flat.standing, long.standing) == pytest.approx((0.0486, 0.0486))
 
 

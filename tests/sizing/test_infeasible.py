@@ -1,4 +1,4 @@
-"""Problems without solution: what conflicts, what is possible, and what would do."""
+"""Infeasible problems: conflicting limits, largest spin inertia, and relaxations."""
 
 from dataclasses import replace
 
@@ -18,7 +18,7 @@ from ocs_design.sizing.bound.rim_program import solve_rim
 from ocs_design.sizing.limits import MOST_CHANGE, RIM_LIMITS
 
 BY_NAME = {limit.name: limit for limit in RIM_LIMITS}
-few = settings(max_examples=40, deadline=None, suppress_health_check=list(HealthCheck))
+few_examples = settings(max_examples=40, deadline=None, suppress_health_check=list(HealthCheck))
 
 
 def failure(problem):
@@ -27,8 +27,8 @@ def failure(problem):
     return caught.value
 
 
-def as_limit(problem, name, value):
-    """A relaxation as the figure of its limit: a hoop stress as the safety that allows it."""
+def limit_value(problem, name, value):
+    """Value of the limit for a relaxation: for a hoop stress, the safety that allows it."""
     return problem.material.yield_strength / value if name == "hoop_stress" else value
 
 
@@ -38,15 +38,15 @@ def test_theory_case():
     assert error.required_spin_inertia == 7.11e-4
     assert error.largest_spin_inertia == pytest.approx(1.0001e-4, abs=5e-9)
     assert error.relaxations == pytest.approx({"h_max": 0.0711, "r_max": 0.0490}, abs=5e-5)
-    # h_max in closed form: a disc as high as needed.
-    needed = 2.0 * 7.11e-4 / (np.pi * PAPER_STEEL.density * 0.03**4)
-    assert error.relaxations["h_max"] == pytest.approx(needed, rel=1e-6)
+    # h_max in closed form: a disc of the required inertia.
+    height = 2.0 * 7.11e-4 / (np.pi * PAPER_STEEL.density * 0.03**4)
+    assert error.relaxations["h_max"] == pytest.approx(height, rel=1e-6)
     assert "r_max 30 mm and h_max 10 mm" in error.message
     assert "1.0001e-04 kg m^2" in error.message or "0.00010001 kg m^2" in error.message
     assert error.hint.startswith("Any one of these alone would do: r_max 49 mm; h_max 71.1 mm.")
 
 
-def test_bore_and_wall_that_leave_no_room():
+def test_bore_and_wall_that_leave_no_rim():
     problem = RimProblem(
         1e-5, envelope_with(0.03, 0.01, inner_radius_min=0.029, wall_min=0.002), STEEL, 100
     )
@@ -58,7 +58,7 @@ def test_bore_and_wall_that_leave_no_room():
     assert "no rim at all" in error.message.lower()
 
 
-def test_too_little_asked_for():
+def test_less_than_the_smallest_rim():
     limits = envelope_with(0.03, 0.01, inner_radius_min=0.02, wall_min=0.002, height_min=0.002)
     error = failure(RimProblem(1e-7, limits, STEEL, 100.0))
     assert set(error.binding) == {"r_min", "h_min", "wall_min"}
@@ -78,7 +78,7 @@ def test_hoop_stress_names_safety_and_strength():
     assert f"yields at {np.ceil(4.0 * allowed / 1e6):g} MPa" in error.hint
 
 
-def test_hoop_stress_beyond_the_material_asks_for_another():
+def test_hoop_stress_beyond_the_material_names_a_yield_strength():
     error = failure(
         RimProblem(7.11e-5, envelope_with(0.03, 0.01, stress_safety=1.2), STEEL, 9000.0)
     )
@@ -86,20 +86,20 @@ def test_hoop_stress_beyond_the_material_asks_for_another():
     assert "a material that yields at" in error.hint
 
 
-def test_nothing_alone_would_do():
+def test_no_single_relaxation_is_enough():
     error = failure(RimProblem(1e3, envelope_with(0.03, 0.01, mass_max=0.1), STEEL, 100.0))
     assert error.relaxations == {}
     assert "No single change within reason would do: loosen" in error.hint
 
 
-@few
+@few_examples
 @given(rim_problems())
 @pytest.mark.exhaustive
-def test_each_relaxation_is_the_smallest_that_does(problem):
+def test_each_relaxation_is_the_smallest(problem):
     assume(not is_feasible(problem))
     error = failure(problem)
     for name, relaxed in error.relaxations.items():
-        limit, value = BY_NAME[name], as_limit(problem, name, relaxed)
+        limit, value = BY_NAME[name], limit_value(problem, name, relaxed)
         solve_rim(problem.with_limit(limit, value))
         tighter = limit.loosened(value, 1.0 / (1.0 + 3e-6))
         assert not is_feasible(problem.with_limit(limit, tighter))
@@ -109,10 +109,10 @@ def test_each_relaxation_is_the_smallest_that_does(problem):
             assert not is_feasible(problem.with_limit(limit, loose))
 
 
-@few
+@few_examples
 @given(rim_problems())
 def test_conflict_is_minimal(problem):
-    """With all other limits gone no rim fits; with any one of the conflict gone too, one does."""
+    """Without all other limits no rim is feasible; without any one of the conflict, one is."""
     assume(not is_feasible(problem))
     conflict = conflicting_limits(problem)
     assert conflict
@@ -127,7 +127,7 @@ def test_conflict_is_minimal(problem):
         assert is_feasible(problem.with_limit(limit, loose))
 
 
-@few
+@few_examples
 @given(rim_problems())
 def test_largest_spin_inertia_is_where_feasibility_ends(problem):
     largest = largest_spin_inertia(problem)
@@ -139,5 +139,5 @@ def test_largest_spin_inertia_is_where_feasibility_ends(problem):
     assert is_feasible(replace(problem, spin_inertia=largest))
     assert not is_feasible(replace(problem, spin_inertia=largest * (1.0 + 1e-9)))
     assert spins[feasible].max(initial=0.0) <= largest
-    # One interval, as the docstring says.
+    # The feasible set is one interval, as the docstring says.
     assert np.count_nonzero(np.diff(feasible.astype(int)) == 1) <= 1

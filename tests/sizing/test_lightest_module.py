@@ -1,4 +1,4 @@
-"""Rim and housing together: never heavier than any on a grid, and where there is none, none."""
+"""The lightest rim with housing: never heavier than any on a grid, and equally feasible."""
 
 from dataclasses import replace
 
@@ -19,18 +19,18 @@ from ocs_design.sizing.lightest_module import (
 GRID = 350
 
 SHELL = Printed(mount_reach=0.012)
-"""With a plate that is as wide as its mount around small wheels."""
+"""Around small wheels its plate is as wide as the mount."""
 
 
-def on_a_grid(inertia, limits):
-    """The lightest module of that spin inertia on a grid of radii; inf if there is none."""
+def lightest_on_grid(inertia, limits):
+    """Mass of the lightest module with this spin inertia on a grid of radii; inf if none."""
     outer = np.linspace(0.02, 1.0, GRID)[:, None] * limits.outer_radius_max
     inner = np.linspace(0.01, 1.0, GRID)[None, :-1] * outer
     disc = np.pi * limits.density * limits.web * inner**2
     web = disc * limits.web_weight
-    left = inertia - disc * inner**2 / 2.0 + limits.cuts.axial_inertia(inner, outer, limits.density)
-    height = 2.0 * left / (np.pi * limits.density * (outer**4 - inner**4))
-    rim = 2.0 * left / (outer**2 + inner**2) - limits.cuts.mass(inner, outer, limits.density)
+    rest = inertia - disc * inner**2 / 2.0 + limits.cuts.axial_inertia(inner, outer, limits.density)
+    height = 2.0 * rest / (np.pi * limits.density * (outer**4 - inner**4))
+    rim = 2.0 * rest / (outer**2 + inner**2) - limits.cuts.mass(inner, outer, limits.density)
     nu = limits.poisson_ratio
     stretch = (3.0 + nu) * outer**2 + (1.0 - nu) * inner**2
     fits = (height <= limits.height_max) & (height >= limits.height_min)
@@ -40,16 +40,16 @@ def on_a_grid(inertia, limits):
 
 
 def with_web(limits, share, weight=1.0):
-    """A web of that share of the least height, which is at least that of a thin sheet."""
+    """Limits with a web of a share of the least height, which is at least 0.1 mm."""
     height = max(limits.height_min, 1e-4) if share else limits.height_min
     return replace(limits, height_min=height, web=share * height, web_weight=weight)
 
 
 LIGHTENED_WEIGHT = 0.9
-"""Mass over spin inertia of a web with holes in its middle, of a disc's."""
+"""Ratio of mass to spin inertia of a web with holes, relative to that of a disc."""
 
 
-def meets(shape, inertia, limits):
+def check_within_limits(shape, inertia, limits):
     inner, outer, height = map(float, (shape.inner_radius, shape.outer_radius, shape.height))
     nu, slack = limits.poisson_ratio, 1.0 + 1e-9
     plain = np.pi * limits.density * height * (outer**2 - inner**2)
@@ -57,9 +57,9 @@ def meets(shape, inertia, limits):
     assert float(shape.rim_mass) == pytest.approx(mass, rel=1e-9)
     disc = np.pi * limits.density * limits.web * inner**2
     assert float(shape.web_mass) == pytest.approx(disc * limits.web_weight, rel=1e-9)
-    whole = plain * (outer**2 + inner**2) / 2.0 + disc * inner**2 / 2.0
-    whole -= limits.cuts.axial_inertia(inner, outer, limits.density)
-    assert whole == pytest.approx(inertia, rel=1e-9)
+    spin = plain * (outer**2 + inner**2) / 2.0 + disc * inner**2 / 2.0
+    spin -= limits.cuts.axial_inertia(inner, outer, limits.density)
+    assert spin == pytest.approx(inertia, rel=1e-9)
     assert outer <= limits.outer_radius_max * slack
     assert limits.height_min <= height * slack
     assert height <= limits.height_max * slack
@@ -71,35 +71,34 @@ def meets(shape, inertia, limits):
 
 @pytest.mark.slow
 @given(rim_problems())
-def test_there_is_one_where_there_is_a_rim(problem):
+def test_a_module_exists_where_a_rim_exists(problem):
     limits = replace(problem.limits, height_min=max(problem.limits.height_min, 1e-5))
     rim = lightest_rim(problem.spin_inertia, limits)
     shape = lightest_module(problem.spin_inertia, limits, SHELL)
     assert np.isnan(float(shape.mass)) == np.isnan(float(rim.mass))
     if float(shape.mass) > 0.0:
-        meets(shape, problem.spin_inertia, limits)
+        check_within_limits(shape, problem.spin_inertia, limits)
         assert float(shape.rim_mass) >= float(rim.mass) * (1.0 - 1e-9)
 
 
 @pytest.mark.slow
 @settings(max_examples=30)
 @given(rim_problems(), st.floats(0.01, 0.95), st.sampled_from([1.0, LIGHTENED_WEIGHT]))
-def test_a_web_leaves_the_limits_met(problem, share, weight):
-    """Wherever a grid finds a wheel there is one, and it is no heavier."""
+def test_modules_with_a_web_are_within_limits_and_no_heavier_than_on_a_grid(problem, share, weight):
     limits = with_web(problem.limits, share, weight)
-    # A rim without a wall beside a light web has next to nothing, and few digits of it.
+    # A rim with almost no wall around a light web has too few correct digits.
     assume(weight == 1.0 or limits.wall_min > 1e-3 * limits.outer_radius_max)
     shape = lightest_module(problem.spin_inertia, limits, SHELL)
-    found, grid = float(shape.mass), on_a_grid(problem.spin_inertia, limits)
-    assert grid == np.inf or found <= grid * (1.0 + 1e-9)
-    if found > 0.0:
-        meets(shape, problem.spin_inertia, limits)
+    mass, grid = float(shape.mass), lightest_on_grid(problem.spin_inertia, limits)
+    assert grid == np.inf or mass <= grid * (1.0 + 1e-9)
+    if mass > 0.0:
+        check_within_limits(shape, problem.spin_inertia, limits)
 
 
 def with_cuts(limits, share, holes):
-    """Chamfers of that share of the largest radius, holes of the room that they leave."""
-    least = 4.0 * share * limits.outer_radius_max
-    wall, height = max(limits.wall_min, least), max(limits.height_min, least)
+    """Limits with chamfers of a share of the largest radius, and holes that fit between."""
+    smallest = 4.0 * share * limits.outer_radius_max
+    wall, height = max(limits.wall_min, smallest), max(limits.height_min, smallest)
     cuts = RimCuts(share * limits.outer_radius_max, holes, 0.2 * wall, 0.3 * height)
     return replace(limits, wall_min=wall, height_min=height, cuts=cuts)
 
@@ -113,12 +112,12 @@ def with_cuts(limits, share, holes):
         pytest.param(0.3, 1.0, None, 3, 30, marks=pytest.mark.exhaustive),
         pytest.param(0.3, LIGHTENED_WEIGHT, None, 3, 30, marks=pytest.mark.exhaustive),
         pytest.param(0.9, 1.0, None, 3, 30, marks=pytest.mark.exhaustive),
-        # With broken edges, and holes that balance: what is cut off is made up for.
+        # With chamfers and balancing holes, whose inertia the rim makes up for.
         (0.0, 1.0, 0, 11, 12),
         (0.3, 1.0, 6, 11, 12),
     ],
 )
-def test_none_lighter_is_on_a_grid(web, weight, holes, seed, count):
+def test_no_module_on_a_grid_is_lighter(web, weight, holes, seed, count):
     rng = np.random.default_rng(seed)
     gaps = []
     for _ in range(count):
@@ -126,10 +125,10 @@ def test_none_lighter_is_on_a_grid(web, weight, holes, seed, count):
         limits = with_web(problem.limits, web, weight)
         limits = limits if holes is None else with_cuts(limits, 0.005, holes)
         shape = lightest_module(problem.spin_inertia, limits, SHELL)
-        grid = on_a_grid(problem.spin_inertia, limits)
+        grid = lightest_on_grid(problem.spin_inertia, limits)
         if np.isfinite(grid):
             if limits.cuts.any:
-                meets(shape, problem.spin_inertia, limits)
+                check_within_limits(shape, problem.spin_inertia, limits)
             gaps.append(float(grid / shape.mass) - 1.0)
     assert len(gaps) > count / 3.0
     assert min(gaps) > -1e-12
@@ -139,7 +138,7 @@ def test_none_lighter_is_on_a_grid(web, weight, holes, seed, count):
 WITHOUT_A_WALL = scaled_problem(
     size=0.0234375, slim=0.5, fill=1.0, bore=0.0, flat=0.5, wall=0.0, mass=np.inf, stress=100.0
 )
-"""Nothing but its least height keeps the widest of its wheels from being all web."""
+"""Only the least height keeps its widest wheel from being all web."""
 
 
 @pytest.mark.slow
@@ -153,8 +152,8 @@ def test_more_spin_inertia_is_no_lighter(problem, web, weight):
     assert (np.diff(mass) >= -1e-9 * mass[1:]).all()
 
 
-def test_of_a_given_radius():
-    """No other radius is lighter, and the nearest is taken where none fits."""
+def test_modules_of_a_given_radius():
+    """No other radius is lighter; the nearest is taken where none is feasible."""
     rng = np.random.default_rng(5)
     problem = random_problem(rng)
     while np.isnan(float(lightest_module(problem.spin_inertia, problem.limits, SHELL).mass)):
@@ -165,29 +164,29 @@ def test_of_a_given_radius():
     others = lightest_module_at(inertia, radii, limits, SHELL)
     assert (others.mass >= best.mass * (1.0 - 1e-12)).all()
     for index in (0, -1):
-        meets(others.take(index), inertia, limits)
+        check_within_limits(others.take(index), inertia, limits)
 
 
-def test_no_rim_has_more_than_the_largest():
+def test_no_rim_exceeds_the_largest_spin_inertia():
     rng, compared = np.random.default_rng(12), 0
     for _ in range(40):
         limits = with_web(random_problem(rng).limits, 0.3)
         largest = float(largest_spin_inertia(limits))
-        tried = largest * np.array([0.9, 0.99, 1.0 + 1e-6, 1.5, 10.0])
-        there = lightest_module(tried, limits, SHELL).mass > 0.0
-        assert not there[2:].any()
-        compared += int(there[0])
+        inertias = largest * np.array([0.9, 0.99, 1.0 + 1e-6, 1.5, 10.0])
+        exists = lightest_module(inertias, limits, SHELL).mass > 0.0
+        assert not exists[2:].any()
+        compared += int(exists[0])
     assert compared > 0
 
 
 @pytest.mark.parametrize("web", [0.0, 0.5])
-def test_limits_that_are_none_hold_nothing(web):
-    """Neither an unlimited hoop stress nor an unlimited mass, alone or together."""
+def test_infinite_limits_are_no_limits(web):
+    """Hoop stress and mass, alone or together."""
     rng = np.random.default_rng(7)
     limits = with_web(random_problem(rng).limits, web)
     disc = np.pi * limits.density * limits.height_max * limits.outer_radius_max**4 / 2.0
     ample = replace(limits, mass_max=1e3 * disc / limits.outer_radius_max**2, stretch_max=1.0)
     for names in ([], ["stretch_max"], ["mass_max"], ["stretch_max", "mass_max"]):
         free = replace(ample, **dict.fromkeys(names, np.inf))
-        shape, grid = lightest_module(0.4 * disc, free, SHELL), on_a_grid(0.4 * disc, free)
+        shape, grid = lightest_module(0.4 * disc, free, SHELL), lightest_on_grid(0.4 * disc, free)
         assert float(shape.mass) <= grid < np.inf

@@ -1,4 +1,4 @@
-"""The search for the smallest change, and figures for people."""
+"""The search for the smallest change of a limit, and rounded figures."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -22,7 +22,7 @@ BY_NAME = {limit.name: limit for limit in (*RIM_LIMITS, TOP_SPEED)}
 
 @dataclass(frozen=True)
 class Changed:
-    """A problem that is nothing but the values of its limits, and the one that was changed."""
+    """A problem reduced to the values of its limits, and the limit that was changed."""
 
     values: Mapping
     limit: Limit | None = None
@@ -35,9 +35,9 @@ class Changed:
 
 
 def smallest_change(limit, now, mends):
-    """Of one limit; None: there is none."""
-    asked = Changed({limit: now})
-    return smallest_changes(asked, [limit], lambda each: mends(each.values[limit])).get(limit)
+    """Smallest change of one limit; None if no change is enough."""
+    problem = Changed({limit: now})
+    return smallest_changes(problem, [limit], lambda each: mends(each.values[limit])).get(limit)
 
 
 @given(st.floats(1e-3, 1e3), st.floats(1.0001, 900.0))
@@ -48,29 +48,28 @@ def test_smallest_change_finds_the_edge(now, factor):
     assert now / factor >= lower >= now / factor * (1.0 - PRECISION)
 
 
-def test_what_a_thousandfold_change_does_not_mend_is_not_mended():
+def test_changes_beyond_a_factor_of_a_thousand_are_not_searched():
     assert smallest_change(BY_NAME["h_max"], 0.01, lambda value: value >= 20.0) is None
 
 
 @pytest.mark.parametrize("now", [0.0, float("inf")])
-def test_no_limit_cannot_be_loosened(now):
+def test_absent_limits_cannot_be_loosened(now):
     assert smallest_change(BY_NAME["wheel_mass_max"], now, lambda _: True) is None
 
 
-def test_a_change_too_far_may_not_help():
-    """The nearest of two edges is found, though nothing beyond the window mends."""
+def test_the_nearest_edge_of_a_window_is_found():
     found = smallest_change(BY_NAME["r_max"], 1.0, lambda value: 2.0 <= value <= 3.0)
     assert found == pytest.approx(2.0, rel=PRECISION)
 
 
-def test_gentlest_change_first():
+def test_the_smallest_change_comes_first():
     edges = {BY_NAME["r_max"]: 3.0, BY_NAME["wall_min"]: 0.5, BY_NAME["h_max"]: 1e6}
 
-    def possible(asked):
-        value, edge = asked.values[asked.limit], edges[asked.limit]
-        return value >= edge if asked.limit.loosens_upwards else value <= edge
+    def feasible(problem):
+        value, edge = problem.values[problem.limit], edges[problem.limit]
+        return value >= edge if problem.limit.loosens_upwards else value <= edge
 
-    found = smallest_changes(Changed(dict.fromkeys(edges, 1.0)), edges, possible)
+    found = smallest_changes(Changed(dict.fromkeys(edges, 1.0)), edges, feasible)
     assert [limit.name for limit in found] == ["wall_min", "r_max"]
 
 
@@ -82,7 +81,7 @@ def test_rounding_outwards(value):
     assert len(f"{up:.6g}".replace(".", "").strip("0").split("e")[0]) <= 3
 
 
-def test_figures_with_few_digits_stay():
+def test_figures_with_few_digits_are_not_changed():
     for upwards in (True, False):
         assert round_outwards(0.3, upwards=upwards) == pytest.approx(0.3, rel=1e-15)
         assert round_outwards(20.0, upwards=upwards) == 20.0

@@ -1,4 +1,4 @@
-"""How devices sit on robots: clearances by hand, and MuJoCo's contacts as a second opinion."""
+"""Mounting of devices on robots: clearances by hand, and MuJoCo's contacts as an oracle."""
 
 from dataclasses import replace
 
@@ -16,12 +16,12 @@ from ocs_design.robot.manual import robot_by_hand
 from ocs_design.sizing.mounting import mounting_of, mounting_open_points, placement_warnings
 
 BOX = robot_by_hand(6.0, (0.05, 0.05, 0.05))
-"""A cube: I = m a^2 / 6."""
+"""A cube of edge a: I = m a^2 / 6."""
 HALF = np.sqrt(0.05) / 2.0
 
 
 def device_at(x, y, z):
-    """The paper's wheels with lateral axes."""
+    """The paper's device with lateral axes and wheels at (x, +-y, z)."""
     device = paper_device(0.0)
     left, right = device.modules
     return replace(
@@ -37,31 +37,31 @@ def on_box(x, y, z):
     return mounting_of(BOX, device_at(x, y, z), (), BOX.mass_properties)
 
 
-def test_over_a_box():
-    found = on_box(0.0, 0.05, HALF + 0.03 + 0.004).nearest
-    assert found.part == "base"
-    assert found.distance == pytest.approx(0.004, abs=1e-6)
+def test_clearance_above_a_box():
+    nearest = on_box(0.0, 0.05, HALF + 0.03 + 0.004).nearest
+    assert nearest.part == "base"
+    assert nearest.distance == pytest.approx(0.004, abs=1e-6)
 
 
-def test_between_the_wheels():
-    found = on_box(0.0, 0.0065, HALF + 0.2).nearest
-    assert found.part == "ocs_right_flywheel"
+def test_clearance_between_the_wheels():
+    nearest = on_box(0.0, 0.0065, HALF + 0.2).nearest
+    assert nearest.part == "ocs_right_flywheel"
     # Two wheels 10 mm high, centres 13 mm apart.
-    assert found.distance == pytest.approx(0.003, abs=1e-6)
+    assert nearest.distance == pytest.approx(0.003, abs=1e-6)
 
 
-def test_inside_the_robot():
+def test_clearance_inside_the_robot_is_negative():
     assert on_box(0.0, 0.04, 0.0).nearest.distance < 0.0
 
 
-def test_nothing_of_a_box_moves():
+def test_a_robot_without_limbs_has_none_in_reach():
     mounting = on_box(0.0, 0.05, 0.3)
     assert (mounting.landing, mounting.reachable) == (None, ())
     np.testing.assert_array_equal(mounting.com_shift, 0.0)
     np.testing.assert_array_equal(mounting.inertia_change, 0.0)
 
 
-def test_a_stated_position_that_is_hit_is_a_warning_with_a_free_one_and_strictly_an_error(solo12):
+def test_a_specified_position_that_collides_is_a_warning_and_an_error_if_strict(solo12):
     robot, device = solo12, device_at(0.0, 0.05, 0.03)
     mounting = mounting_of(robot, device, (), robot.mass_properties)
     arguments = (mounting, robot, device, default_envelope(robot))
@@ -81,8 +81,8 @@ def test_a_stated_position_that_is_hit_is_a_warning_with_a_free_one_and_strictly
     ],
 )
 @pytest.mark.parametrize("specified", fast_subset(2, [False, True]))
-def test_another_place_is_asked_for_as_its_layout_states_it(solo12, name, option, specified):
-    """For none but a pair a free place is looked for where one is stated."""
+def test_the_cure_of_a_collision_names_the_option_for_its_layout(solo12, name, option, specified):
+    """Only for a pair a free place is searched where one is specified."""
     robot, device = solo12, layout_device(Layout(name))
     low = [replace(each, position=each.position * [1.0, 1.0, 0.0]) for each in device.modules]
     device = replace(device, modules=tuple(low))
@@ -92,25 +92,25 @@ def test_another_place_is_asked_for_as_its_layout_states_it(solo12, name, option
     )
     assert warning.endswith(f"with {option}")
     assert ("no free place was found" in warning) is not specified
-    *_, hit = mounting_open_points(mounting)
-    assert hit.cure == f"give another place with {option}"
+    *_, collision = mounting_open_points(mounting)
+    assert collision.cure == f"give another place with {option}"
 
 
 @pytest.mark.parametrize("name", fast_subset(4, MEASURED[::2]))
 def test_mujoco_sees_no_contact_of_device_and_robot(name):
-    """In the nominal posture and in postures of the landing ranges that were not drawn before."""
+    """In the nominal posture and in new random postures of the landing ranges."""
     robot, device, mounting = mounted(name)
     assert mounting.nearest.distance > 0.0
     assert mounting.landing.distance > 0.0
     postures = [{}, *drawn(landing_ranges(robot), 700)[-150:]]
-    for turned in (device, device.at_incidence(0.0)):
-        assert contacts(robot, turned, postures) == []
+    for mounted_device in (device, device.at_incidence(0.0)):
+        assert contacts(robot, mounted_device, postures) == []
 
 
-def test_mujoco_sees_contact_where_a_limb_is_said_to_hit():
+def test_mujoco_sees_contact_where_a_limb_can_reach():
     robot, device, mounting = mounted("solo_description/robots/solo12")
     assert len(mounting.reachable) == 4
-    # As delivered, and by hand for the back-flip.
+    # As designed, and turned by hand for the back-flip.
     incidences = (device.incidence, 0.0)
     for reach in mounting.reachable:
         touched = [contacts(robot, device.at_incidence(a), [reach.joints]) for a in incidences]

@@ -1,4 +1,4 @@
-"""The convex program: against the closed form, from other starts, and its prices by differences."""
+"""The convex program: against the closed form, from other starts, and its shadow prices."""
 
 from dataclasses import replace
 
@@ -21,7 +21,7 @@ from ocs_design.sizing.bound.rim_program import RimConstraints, optimise_rim, so
 from ocs_design.sizing.limits import RIM_LIMITS
 
 STEP = 1e-6
-few = settings(max_examples=30, deadline=None, suppress_health_check=list(HealthCheck))
+few_examples = settings(max_examples=30, deadline=None, suppress_health_check=list(HealthCheck))
 
 
 def mass_of(problem):
@@ -57,10 +57,10 @@ def test_random_problems_agree_with_the_closed_form():
 
 
 @pytest.mark.slow
-@few
+@few_examples
 @given(rim_problems(), st.floats(0.05, 1.0), st.floats(0.0, 1.0))
 def test_other_starts_lead_to_the_same_rim(problem, share_of_radius, share_of_bore):
-    """From any rim within the limits the procedure comes to what the closed form says."""
+    """From any rim within the limits the procedure converges to the closed form."""
     best = lightest_rim(problem.spin_inertia, problem.limits)
     assume(not np.isnan(best.mass))
     narrow = replace(
@@ -71,22 +71,22 @@ def test_other_starts_lead_to_the_same_rim(problem, share_of_radius, share_of_bo
     bore = share_of_bore * float(start.inner_radius)
     start = (float(start.outer_radius), max(bore, problem.envelope.inner_radius_min))
     assume(within_heights(problem, *start))
-    found = optimise_rim(problem, *start)
-    assert found.mass == pytest.approx(float(best.mass), rel=1e-7)
-    assert found.outer_radius == pytest.approx(float(best.outer_radius), rel=1e-6)
+    rim = optimise_rim(problem, *start)
+    assert rim.mass == pytest.approx(float(best.mass), rel=1e-7)
+    assert rim.outer_radius == pytest.approx(float(best.outer_radius), rel=1e-6)
 
 
 def within_heights(problem, outer, inner):
     spread = np.pi * problem.material.density * (outer**4 - inner**4)
     height, mass = 2.0 * problem.spin_inertia / spread, 2.0 * problem.spin_inertia
-    room = problem.envelope
+    limits = problem.envelope
     return (
-        room.height_min <= height <= room.height_max
-        and mass / (outer**2 + inner**2) <= room.mass_max
+        limits.height_min <= height <= limits.height_max
+        and mass / (outer**2 + inner**2) <= limits.mass_max
     )
 
 
-@few
+@few_examples
 @given(rim_problems())
 def test_shadow_prices_are_finite_differences(problem):
     mass = mass_of(problem)
@@ -108,10 +108,9 @@ def test_shadow_prices_are_finite_differences(problem):
         assert prices[limit.name] * value == pytest.approx(difference, rel=1e-4, abs=1e-7 * mass)
 
 
-@few
+@few_examples
 @given(rim_problems())
-def test_binding_limits_are_those_that_hold_the_mass_up(problem):
-    """Loosening a limit by 1 % saves mass if it binds, and changes nothing if it does not."""
+def test_loosening_a_limit_saves_mass_only_if_it_is_active(problem):
     mass = mass_of(problem)
     assume(not np.isnan(mass))
     binding = solve_rim(problem).binding
@@ -142,7 +141,7 @@ def test_binding_limits_are_those_that_hold_the_mass_up(problem):
         paper_problem(1e-12, 0.03, 0.01),
         paper_problem(1e-5, 1e6, 0.01),
     ],
-    ids=["one height", "one bore", "nearly a disc", "a hair", "room without end"],
+    ids=["one height", "one bore", "nearly a disc", "tiny", "huge radius"],
 )
 def test_extreme_limits_are_solved(problem):
     solution = solve_rim(problem)
@@ -161,26 +160,26 @@ def test_extreme_limits_are_solved(problem):
         ({"envelope": envelope_with(0.03, 0.01, stress_safety=0.0)}, "stress_safety"),
     ],
 )
-def test_figures_that_are_no_limits_are_refused(change, message):
-    asked = {
+def test_invalid_limits_are_refused(change, message):
+    valid = {
         "envelope": envelope_with(0.03, 0.01),
         "material": PAPER_STEEL,
         "wheel_speed": 754.0,
     }
     with pytest.raises(UsageError, match=message):
-        check_limits(**(asked | change))
-    check_limits(**asked)
-    assert RimProblem(7e-5, **asked).hoop_stress_max == float("inf")
+        check_limits(**(valid | change))
+    check_limits(**valid)
+    assert RimProblem(7e-5, **valid).hoop_stress_max == float("inf")
 
 
-@few
+@few_examples
 @given(rim_problems(), st.floats(0.3, 1.5), st.floats(0.0, 0.95))
-def test_each_limit_is_overstepped_where_the_rim_itself_oversteps_it(problem, share, bore):
-    """Idle limits too, which no price and no optimum shows."""
+def test_constraints_are_violated_where_the_rim_violates_the_limits(problem, share, bore):
+    """Inactive limits too, which neither prices nor optimum show."""
     limits = problem.envelope
     outer = share * limits.outer_radius_max
     inner = bore * outer
-    # The wall's limit is on b = r^2, and knows no rim that is narrower than the wall itself.
+    # The constraint on the wall is in b = r^2, and undefined for R below the wall.
     assume(outer > limits.wall_min)
     mass = 2.0 * problem.spin_inertia / (outer**2 + inner**2)
     height = mass / (np.pi * problem.material.density * (outer**2 - inner**2))

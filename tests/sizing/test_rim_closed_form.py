@@ -33,39 +33,38 @@ def test_theory_cases(spin_inertia, outer_radius_max, expected):
 
 
 def violations(problem, outer, inner):
-    """How far each point of the grid is outside the limits, relative; at most 0 inside."""
+    """Relative violation of the limits at each grid point, at most 0 inside, and the mass."""
     mass = 2.0 * problem.spin_inertia / (outer**2 + inner**2)
     with np.errstate(divide="ignore", invalid="ignore"):
         height = mass / (np.pi * problem.material.density * (outer**2 - inner**2))
-        most = reduce(np.maximum, utilization(problem, inner, outer, height, mass).values())
-    return np.where(outer > inner, most - 1.0, np.inf), mass
+        largest = reduce(np.maximum, utilization(problem, inner, outer, height, mass).values())
+    return np.where(outer > inner, largest - 1.0, np.inf), mass
 
 
 def brute_force(problem):
-    """The best mass on a grid of radii and on two finer ones around its best point.
+    """The least mass on a grid of radii and on two finer ones around its best point; inf if none.
 
-    One grid of 500 points a side is not fine enough for 0.1 % of the mass of a thin ring. Where no
-    point is within the limits, the least violation leads the way. Returns inf if none ever is.
+    One grid of 500 x 500 points is too coarse for 0.1 % of the mass of a thin ring. Where no point
+    is feasible, the next grid is around the least violation.
     """
-    room = problem.envelope
-    bore, radius = room.inner_radius_min, room.outer_radius_max
+    bore, radius = problem.envelope.inner_radius_min, problem.envelope.outer_radius_max
     box = limits = [(bore + (radius - bore) / POINTS, radius), (bore, radius)]
     best = np.inf
     for _ in range(3):
         outer, inner = (np.linspace(*side, POINTS) for side in box)
         violation, mass = violations(problem, outer[:, np.newaxis], inner[np.newaxis, :])
-        found = np.where(violation <= 0.0, mass, np.inf)
-        score = found if np.isfinite(found).any() else violation
+        feasible = np.where(violation <= 0.0, mass, np.inf)
+        score = feasible if np.isfinite(feasible).any() else violation
         at = np.unravel_index(score.argmin(), score.shape)
-        best = min(best, found.min())
+        best = min(best, feasible.min())
         center = np.array([outer[at[0]], inner[at[1]]])
         reach = 25.0 * np.array([outer[1] - outer[0], inner[1] - inner[0]])
         box = np.clip(np.stack([center - reach, center + reach], axis=1).T, *np.transpose(limits)).T
     return best
 
 
-def touching(problem, shape):
-    """Names of the limits that a rim lies on."""
+def active_limits(problem, shape):
+    """Names of the active limits of a rim."""
     ratios = utilization(problem, *map(float, shape))
     return {name for name, ratio in ratios.items() if abs(ratio - 1.0) < 1e-9 and name != "r_min"}
 
@@ -87,8 +86,8 @@ def test_brute_force():
         spin = cylinder_spin_inertia(inner, outer, height, STEEL.density)
         assert spin == pytest.approx(problem.spin_inertia, rel=1e-10)
         assert cylinder_mass(inner, outer, height, STEEL.density) == pytest.approx(mass, rel=1e-10)
-        vertices[" and ".join(sorted(touching(problem, shape)))] += 1
-    # Every vertex that the derivation names was met, and many problems had no solution.
+        vertices[" and ".join(sorted(active_limits(problem, shape)))] += 1
+    # Each vertex of the derivation occurred, and many problems were infeasible.
     expected = {
         "h_max and r_max",
         "r_max and wall_min",
@@ -100,7 +99,7 @@ def test_brute_force():
     assert min(vertices.values()) >= 3, vertices
 
 
-def test_many_at_once_equal_one_by_one():
+def test_arrays_and_single_problems_agree():
     rng = np.random.default_rng(7)
     problems = [random_problem(rng) for _ in range(100)]
     limits = [vars(problem.limits) for problem in problems]
@@ -133,8 +132,8 @@ def test_the_smallest_rim_inertia_is_where_feasibility_begins():
     assert met > 20
 
 
-def test_what_is_cut_off_the_smallest_rim_is_not_counted():
-    """A chamfered ring as solid cylinders and cones, and blind holes one by one."""
+def test_chamfers_and_holes_reduce_the_smallest_rim_inertia():
+    """Against solid cylinders and cones, and each blind hole."""
     bore, wall, height, web = 0.02, 0.008, 0.01, 0.001
     cuts = RimCuts(chamfer=1e-3, holes=8, hole_radius=1.25e-3, hole_depth=2e-3)
     limits = replace(
