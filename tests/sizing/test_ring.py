@@ -1,4 +1,4 @@
-"""Wheels that are rings around the bells of their motors, chosen, built and compared."""
+"""Wheels that are rings around the bells of their motors: selection, parts and alternatives."""
 
 from dataclasses import replace
 from types import SimpleNamespace
@@ -35,13 +35,13 @@ from ocs_design.sizing.selection.select import lightest_by
 from ocs_design.sizing.specified import selection_problem
 
 MORE_TIME = 1.2
-"""Factor with which no bond limits the ring."""
+"""Factor of time with which no bond limits the ring."""
 
-ABOUT = 0.015
-"""To which an alternative's mass is good: the reserve of the device as it stands is kept."""
+ALTERNATIVE_TOLERANCE = 0.015
+"""Relative tolerance of an alternative's mass, whose reserve is that of the original device."""
 
 
-def made(wheel="ring", motor="Antigravity MN5008 KV400", alpha=None, **flywheel):
+def design_for(wheel="ring", motor="Antigravity MN5008 KV400", alpha=None, **flywheel):
     return design_of(
         Specification(
             motor=MotorSection(name=motor),
@@ -52,21 +52,21 @@ def made(wheel="ring", motor="Antigravity MN5008 KV400", alpha=None, **flywheel)
 
 
 @pytest.mark.slow
-def test_it_is_around_the_bell_within_its_straight_part_and_its_joints_hold():
-    _, designed = made()
-    wheel, drive = designed.device.flywheel, designed.device.motor
+def test_a_ring_fits_around_the_bell_and_its_joints_hold():
+    device = design_for()[1].device
+    wheel, drive = device.flywheel, device.motor
     assert wheel.web is None
     assert wheel.inner_radius == pytest.approx(drive.diameter / 2.0 + GLUE_GAP, rel=1e-12)
     assert wheel.height <= 0.45 * drive.length
-    assert [joint.name for joint in joints_of(designed.device)] == [
+    assert [joint.name for joint in joints_of(device)] == [
         "largest stress of the wheel",
         "rim joint, pull on the bond",
         "shaft joint",
         "landing shock, foot",
     ]
-    assert all(joint.margin >= 1.0 for joint in joints_of(designed.device))
-    assert balance_of(designed.device).off_centre > GLUE_GAP
-    assert not balance_of(designed.device).shifted
+    assert all(joint.margin >= 1.0 for joint in joints_of(device))
+    assert balance_of(device).off_centre > GLUE_GAP
+    assert not balance_of(device).shifted
 
 
 def test_a_specified_torque_limit_holds_for_rings_as_for_discs():
@@ -76,9 +76,9 @@ def test_a_specified_torque_limit_holds_for_rings_as_for_discs():
         assert {gear.torque_max for gear in problem.gears} == {0.01}
 
 
-def test_the_rotor_counts():
-    _, designed = made()
-    wheel, chosen = designed.device.flywheel, designed.choice.chosen
+def test_spin_inertia_includes_the_rotor():
+    _, design = design_for()
+    wheel, chosen = design.device.flywheel, design.choice.chosen
     outer, inner = wheel.outer_radius, wheel.inner_radius
     plain = np.pi / 2.0 * wheel.density * wheel.height * (outer**4 - inner**4)
     cut = wheel.cuts.axial_inertia(inner, outer, wheel.density)
@@ -86,54 +86,50 @@ def test_the_rotor_counts():
 
 
 def test_no_ring_on_a_grid_is_lighter():
-    _, designed = made()
-    chosen = designed.choice.chosen
+    chosen = design_for()[1].choice.chosen
     limits = chosen.limits
     mount = mount_of(chosen.motor, None, chosen.foot_plate, on_bell=True)
     shell = Printed(mount.holes.reach, foot_plate=chosen.foot_plate, room=mount.room)
     inertia, inner = chosen.spin_inertia - chosen.drive.rotor_inertia, chosen.inner_radius
     outer = np.linspace(inner, float(limits.outer_radius_max), 4001)[1:]
-    left = inertia + limits.cuts.axial_inertia(inner, outer, limits.density)
-    height = 2.0 * left / (np.pi * limits.density * (outer**4 - inner**4))
-    rim = 2.0 * left / (outer**2 + inner**2) - limits.cuts.mass(inner, outer, limits.density)
+    plain = inertia + limits.cuts.axial_inertia(inner, outer, limits.density)
+    height = 2.0 * plain / (np.pi * limits.density * (outer**4 - inner**4))
+    rim = 2.0 * plain / (outer**2 + inner**2) - limits.cuts.mass(inner, outer, limits.density)
     fits = (height <= limits.height_max) & (height >= limits.height_min)
     fits &= outer - inner >= limits.wall_min
     best = np.where(fits, rim + shell.mass(outer, height), np.inf).min()
-    found = float(lightest_module(inertia, limits, shell).mass)
-    assert found == pytest.approx(best, rel=1e-5)
-    assert found <= best * (1.0 + 1e-12)
-    # A smaller one stands nearer to the robot, and needs a little less.
+    lightest = float(lightest_module(inertia, limits, shell).mass)
+    assert lightest == pytest.approx(best, rel=1e-5)
+    assert lightest <= best * (1.0 + 1e-12)
+    # The chosen ring may be smaller: it is then closer to the robot, and needs less inertia.
     own = chosen.rim_mass + float(shell.mass(*map(np.array, (chosen.outer_radius, chosen.height))))
-    assert found <= own * (1.0 + 1e-12)
-    assert own <= found * 1.01
+    assert lightest <= own * (1.0 + 1e-12)
+    assert own <= lightest * 1.01
 
 
-def test_its_fixture_has_an_exact_solid_too(tmp_path, monkeypatch):
+def test_the_fixture_is_exported_to_step(tmp_path, monkeypatch):
     step = pytest.importorskip("ocs_design.export.step", reason="the extra [step]")
-    for whole in ("module_bytes", "device_bytes"):
-        monkeypatch.setattr(step, whole, lambda _: b"")
-    step.write(SimpleNamespace(device=made()[1].device), tmp_path)
+    for name in ("module_bytes", "device_bytes"):
+        monkeypatch.setattr(step, name, lambda _: b"")
+    step.write(SimpleNamespace(device=design_for()[1].device), tmp_path)
     assert (tmp_path / "ring_fixture.step").read_bytes().startswith(b"ISO-10303-21;")
 
 
-def test_it_turns_free_of_all_that_stands_but_its_motor():
-    _, designed = made()
-    parts = placed_parts(designed.device)
+def test_the_ring_clears_all_fixed_parts_but_its_motor():
+    parts = placed_parts(design_for()[1].device)
     ring, motor = parts["flywheel"][0], parts["motor"][0]
-    still = [parts[name][0] for name in ("drum", "lid")]
-    turning = turning_clearance([ring, motor], still[1:], 0.01)
-    assert turning_clearance([ring], still, 0.01) == pytest.approx(CLEARANCE, abs=1e-5)
-    # The shaft stands out of the bell, and is clear of the lid.
-    assert turning == pytest.approx(CLEARANCE, abs=1e-5)
+    drum, lid = parts["drum"][0], parts["lid"][0]
+    assert turning_clearance([ring], [drum, lid], 0.01) == pytest.approx(CLEARANCE, abs=1e-5)
+    # The shaft protrudes from the bell, and clears the lid.
+    assert turning_clearance([ring, motor], [lid], 0.01) == pytest.approx(CLEARANCE, abs=1e-5)
     assert overlap_volume(ring, motor) < 1e-12
-    assert overlap_volume(motor, still[0]) < 1e-12
+    assert overlap_volume(motor, drum) < 1e-12
     gap = turning_clearance([ring], [motor], 0.01)
     assert gap == pytest.approx(GLUE_GAP, abs=1e-5)
 
 
-def test_the_device_weighs_what_its_parts_weigh():
-    _, designed = made()
-    device = designed.device
+def test_the_mass_of_the_device_is_that_of_its_bill():
+    device = design_for()[1].device
     rows = bill_rows(device)
     assert sum(row.quantity * row.mass for row in rows) == pytest.approx(device.mass, rel=1e-12)
     names = [row.part for row in rows]
@@ -141,32 +137,36 @@ def test_the_device_weighs_what_its_parts_weigh():
     assert not any(name.startswith(("retaining", "cage")) for name in names)
 
 
-def test_what_stands_still_has_the_mass_properties_of_its_parts_in_their_places():
-    """But for the screws, whose mass is known and whose places move the middle by little."""
-    device = made()[1].device
+def test_the_carrier_has_the_mass_properties_of_its_placed_parts():
+    """Except for the places of the screws, which change the centre of mass by little."""
+    device = design_for()[1].device
     parts = placed_parts(device)
     names = ("drum", "lid", "foot", "motor")
-    still = combine(
+    carrier_parts = combine(
         [
             part.mass_properties().moved(place.rotation, place.position)
             for part, place in (parts[name] for name in names)
         ]
     )
     point = MassProperties(device.motor.controller_mass, np.zeros(3), np.zeros((3, 3)))
-    # It is where the body's middle is, and the carrier was weighed without the shaft.
+    # The controller is at the centre of the body; the carrier's mass excludes the shaft.
     body = parts["motor"][0].joined[0].profile[:, 1]
     middle = np.array([0.0, 0.0, (body.min() + body.max()) / 2.0])
-    still = combine([still, point.moved(np.eye(3), middle)])
+    carrier_parts = combine([carrier_parts, point.moved(np.eye(3), middle)])
     screws = [row for row in bill_rows(device) if row.part.startswith("screw")]
-    own = sum(row.quantity * row.mass for row in screws if "plate on trunk" not in row.remark)
-    own /= len(device.modules)
+    screw_mass = sum(
+        row.quantity * row.mass for row in screws if "plate on trunk" not in row.remark
+    )
+    screw_mass /= len(device.modules)
     carrier = device.carrier.mass_properties()
-    assert carrier.mass == pytest.approx(still.mass + own, rel=1e-9)
-    # Along the axis, away from the motor; screws are within 60 mm of the wheel's middle.
-    assert carrier.com[1] == pytest.approx(still.com[2], abs=0.06 * own / carrier.mass)
-    assert carrier.inertia[1, 1] == pytest.approx(still.inertia[2, 2], rel=0.05)
-    assert carrier.inertia[2, 2] == pytest.approx(still.inertia[1, 1], rel=0.05)
-    # The motor stands on the floor, and its shaft is clear of the lid.
+    assert carrier.mass == pytest.approx(carrier_parts.mass + screw_mass, rel=1e-9)
+    # Along the axis, away from the motor; screws are within 60 mm of the wheel's centre.
+    assert carrier.com[1] == pytest.approx(
+        carrier_parts.com[2], abs=0.06 * screw_mass / carrier.mass
+    )
+    assert carrier.inertia[1, 1] == pytest.approx(carrier_parts.inertia[2, 2], rel=0.05)
+    assert carrier.inertia[2, 2] == pytest.approx(carrier_parts.inertia[1, 1], rel=0.05)
+    # The motor stands on the floor, and its shaft clears the lid.
     room = mount_of(device.motor, None, on_bell=True).room / 2.0 + CLEARANCE
     back = middle[2] - device.motor.length / 2.0
     shaft = device.motor.mounting.shaft_length
@@ -175,103 +175,103 @@ def test_what_stands_still_has_the_mass_properties_of_its_parts_in_their_places(
 
 
 @pytest.mark.slow
-def test_each_construction_tells_of_the_other():
-    sides, alone = {}, {"alpha": 0.6}
+def test_disc_and_ring_are_alternatives_of_each_other():
+    alternatives = {}
     for wheel in ("disc", "ring"):
-        task, designed = made(wheel, **alone)
-        (sides[wheel],) = alternative_construction(task, designed.choice)
+        task, design = design_for(wheel, alpha=0.6)
+        (alternatives[wheel],) = alternative_construction(task, design.choice)
     for wheel, other in (("disc", "ring"), ("ring", "disc")):
-        assert sides[wheel].note == f"--wheel {other}"
-        mass = made(other, **alone)[1].device.mass
-        assert sides[wheel].mass_total == pytest.approx(mass, rel=ABOUT)
+        assert alternatives[wheel].note == f"--wheel {other}"
+        mass = design_for(other, alpha=0.6)[1].device.mass
+        assert alternatives[wheel].mass_total == pytest.approx(mass, rel=ALTERNATIVE_TOLERANCE)
 
 
 @pytest.mark.slow
-def test_none_of_the_motors_and_steels_alone_has_a_lighter_one():
-    """The search leaves out what its bounds say is heavier: each by itself cannot be left out."""
-    _, designed = made(motor=None)
-    problem = designed.choice.problem
-    some = (*problem.motors[::18], designed.choice.chosen.motor)
-    problem = replace(problem, motors=some, incidence=designed.choice.chosen.incidence)
-    found = [
+def test_no_single_motor_and_steel_has_a_lighter_ring():
+    """The search prunes by bounds; a problem with one candidate cannot be pruned."""
+    choice = design_for(motor=None)[1].choice
+    problem = choice.problem
+    some = (*problem.motors[::18], choice.chosen.motor)
+    problem = replace(problem, motors=some, incidence=choice.chosen.incidence)
+    candidates = [
         lightest_by(replace(problem, motors=(motor,), materials=(kind,)), None)
         for motor in problem.motors
         for kind in problem.materials
     ]
-    least = min(each.mass for each in found if each is not None)
-    assert lightest_by(problem, None).mass == pytest.approx(least, rel=1e-3)
+    lightest = min(each.mass for each in candidates if each is not None)
+    assert lightest_by(problem, None).mass == pytest.approx(lightest, rel=1e-3)
 
 
 @pytest.mark.parametrize("heavier", [-1e-9, 1e-9])
-def test_of_equally_heavy_rings_the_one_whose_bond_holds_more_leads(heavier):
+def test_of_equally_heavy_rings_the_one_with_the_stronger_bond_leads(heavier):
     """A ring that expands more than its bell pulls on the glue when both are warm."""
-    _, designed = made()
-    at = designed.choice.chosen.incidence
-    problem = with_limit(designed.choice.problem, TIME, MORE_TIME)
+    choice = design_for()[1].choice
+    incidence = choice.chosen.incidence
+    problem = with_limit(choice.problem, TIME, MORE_TIME)
     strong, close = material("steel-4140-normalized"), material("steel-1045-cold-worked")
     assert strong.yield_strength > close.yield_strength
     assert strong.thermal_expansion > close.thermal_expansion
     steels = strong, replace(close, density=strong.density * (1.0 + heavier))
-    both = [lightest_by(replace(problem, materials=(one,), incidence=at), None) for one in steels]
+    both = [
+        lightest_by(replace(problem, materials=(one,), incidence=incidence), None) for one in steels
+    ]
     assert both[0].mass == pytest.approx(both[1].mass, rel=1e-7)
-    found = lightest_by(replace(problem, materials=steels, incidence=at), None)
-    assert found.material.name == close.name
+    lightest = lightest_by(replace(problem, materials=steels, incidence=incidence), None)
+    assert lightest.material.name == close.name
 
 
 def test_a_motor_without_a_bell_is_refused_with_a_cure():
     with pytest.raises(UsageError, match="no ring fits around the bell of EC 45") as raised:
-        made(motor="EC 45 flat 70 W 411812")
+        design_for(motor="EC 45 flat 70 W 411812")
     assert "--wheel ring" in raised.value.hint
 
 
-def test_what_a_ring_has_nothing_of_is_a_contradiction():
+def test_lightening_holes_contradict_a_ring():
     with pytest.raises(SpecificationError) as raised:
-        made(lightening=6)
+        design_for(lightening=6)
     assert any("ocs.wheel" in problem for problem in raised.value.problems)
 
 
-def test_a_bore_below_the_least_is_no_ring():
-    _, designed = made()
-    envelope = replace(designed.choice.problem.envelope, inner_radius_min=0.03)
-    alone = of_parts(replace(designed.choice.problem, envelope=envelope), designed.choice.chosen)
+def test_a_bell_smaller_than_the_least_bore_has_no_ring():
+    choice = design_for()[1].choice
+    envelope = replace(choice.problem.envelope, inner_radius_min=0.03)
+    alone = of_parts(replace(choice.problem, envelope=envelope), choice.chosen)
     first = np.zeros(1, dtype=np.intp)
     narrow = Candidates(alone, drives_of(alone, first.repeat(2)[None]), first).limits.take(0)
     assert np.isnan(float(lightest_module(1e-4, narrow, Printed(0.01)).mass))
 
 
-def test_in_their_fixture_ring_and_bell_stand_as_they_do_in_the_module():
-    """Both stand on it, in none of its walls, as far from each other as in the housing, and the
-    shaft does not lift it off the table."""
-    device = made()[1].device
+def test_the_fixture_holds_ring_and_bell_as_in_the_module():
+    """Both stand on it without overlap, and the shaft does not lift it off the table."""
+    device = design_for()[1].device
     pieces = {piece.key: piece.mesh.vertices for piece in bonding_pieces(device)}
     assert list(pieces) == ["ring_fixture", "motor", "flywheel"]
     fixture, motor, ring = (vertices * [1.0, -1.0, 1.0] for vertices in pieces.values())
-    # Of y up: the bell on the floor, the ring on the step; nothing of the fixture in the ring.
+    # y is up: the bell is on the floor, the ring on the step.
     shaft = device.motor.mounting.shaft_length
     assert shaft > FIXTURE_FLOOR
     assert 0.0 < motor[:, 1].min() < FIXTURE_FIT * 1.001
     front = motor[:, 1].min() + shaft
     low, wheel = ring[:, 1].min(), device.flywheel
-    away = np.hypot(fixture[:, 0], fixture[:, 2])
-    within = (away > wheel.inner_radius) & (away < wheel.outer_radius)
-    assert fixture[within, 1].max() == pytest.approx(low)
-    middle = -motor_mount(device).bell.front
-    apart = ring[:, 1].mean() - front
-    assert apart == pytest.approx(-middle, abs=1e-6)
+    radius = np.hypot(fixture[:, 0], fixture[:, 2])
+    below_ring = (radius > wheel.inner_radius) & (radius < wheel.outer_radius)
+    assert fixture[below_ring, 1].max() == pytest.approx(low)
+    distance = ring[:, 1].mean() - front
+    assert distance == pytest.approx(motor_mount(device).bell.front, abs=1e-6)
 
 
 @pytest.mark.slow
 def test_the_booklet_has_the_fixture_in_table_picture_and_steps():
-    assembly = Assembly("solo12", made()[1].device)
+    assembly = Assembly("solo12", design_for()[1].device)
     row = next(row for row in piece_rows(assembly) if row.file == "ring_fixture.stl")
     assert row.number == len(assembly.numbers)
     steps = next(each for each in chapters(assembly) if each.title.startswith("Steps")).texts
     assert any(f"Print the fixture ({row.number})" in text for text in steps)
-    # The fixture sets the height of a ring, and no strips of another thickness.
+    # The fixture sets the height of a ring, not strips of another thickness.
     before = next(each for each in chapters(assembly) if each.title.startswith("Before")).texts
     assert any("strips of 1.5 mm for gaps" in text for text in before)
     page = assembly_pages(assembly)[1]
     texts = [item.text for item in page if isinstance(item, Lettering)]
     assert str(row.number) in texts
     assert sum(text.startswith("One module cut along its axis, 1:") for text in texts) == 1
-    assert not Assembly("solo12", made("disc")[1].device).bonding
+    assert not Assembly("solo12", design_for("disc")[1].device).bonding

@@ -1,4 +1,4 @@
-"""The selection: a winner recomputed from scratch, rejections, and what would do."""
+"""The selection: a device recomputed independently, rejections, and relaxations."""
 
 import re
 from dataclasses import replace
@@ -31,24 +31,24 @@ from ocs_design.sizing.selection.problem import Reason, with_limit
 from ocs_design.sizing.selection.select import select
 from ocs_design.sizing.specified import selection_problem
 
-MASS_DIGITS = 2e-5
-"""To which the lightest device is found."""
+MASS_TOLERANCE = 2e-5
+"""Relative tolerance of the mass of the lightest device."""
 
-POSSIBLE = (
+FEASIBLE_SEEDS = (
     *(0, 21),
     *(pytest.param(seed, marks=pytest.mark.exhaustive) for seed in (3, 9, 12, 20, 22)),
 )
-"""Problems that have devices: direct and geared, some of which can only just be."""
+"""Seeds of feasible problems, some of them barely: direct and geared drives."""
 
 
-@pytest.fixture(scope="module", params=POSSIBLE)
+@pytest.fixture(scope="module", params=FEASIBLE_SEEDS)
 def solved(request):
     problem = random_problem(request.param)
     return problem, lightest(problem)
 
 
 def by_pinocchio(problem, found, incidence):
-    """Robot, wheels and all that is made and bought around them, joined by Pinocchio."""
+    """Total of robot, wheels and all parts of the carriers by Pinocchio."""
     total = pinocchio.Inertia(problem.robot.mass, problem.robot.com, problem.robot.inertia)
     parts = list(pieces(found))
     for center, side in zip(found.centers, (1.0, -1.0), strict=True):
@@ -63,12 +63,12 @@ def by_pinocchio(problem, found, incidence):
 
 
 def pieces(found):
-    """All that is made and bought around its wheel."""
+    """All parts around its wheel."""
     return carrier_parts(found.motor, found.gear, found.outer_radius, found.height)
 
 
-def test_the_winner_from_scratch(solved):
-    """Masses, inertia of the whole, and what every maneuver asks for, from its dimensions alone."""
+def test_the_lightest_device_recomputed_from_its_dimensions(solved):
+    """Masses, total inertia and the demands of all maneuvers."""
     problem, found = solved
     motor, gear = found.motor, found.gear
     total = by_pinocchio(problem, found, found.incidence)
@@ -101,15 +101,15 @@ def test_the_winner_from_scratch(solved):
         assert demand.spin_inertia == pytest.approx(needed, rel=1e-8)
         assert 0.0 < demand.peak_speed <= float(line.speed_max) * (1.0 + 1e-12)
         assert 0.0 < demand.peak_torque <= float(line.torque_limit) * (1.0 + 1e-12)
-    # No larger than asked for, within the residual of the fixed point; but for the smallest rim.
+    # As large as required within the residual of the fixed point, unless it is the smallest rim.
     assert found.residual < 1e-9
     if not {"h_min", "web"} & set(found.binding):
-        asked = max(demand.spin_inertia for demand in found.demands)
-        assert found.spin_inertia == pytest.approx(asked, rel=1e-8)
+        required = max(demand.spin_inertia for demand in found.demands)
+        assert found.spin_inertia == pytest.approx(required, rel=1e-8)
         assert found.binding_maneuver in by_name
 
 
-def test_a_shaft_that_reaches_too_short_a_way_into_the_hub_is_not_chosen():
+def test_a_shaft_too_short_for_its_joint_is_not_chosen():
     """Solo12's motor with 3.5 mm of shaft: 2.0 mm in a hub of 0.5 mm chamfers bear 0.63 N m."""
     task = Task.of(Specification(), read_robot(SOLO12))
     (motor,) = (
@@ -118,20 +118,20 @@ def test_a_shaft_that_reaches_too_short_a_way_into_the_hub_is_not_chosen():
     short = replace(motor, name="short", mounting=replace(motor.mounting, shaft_length=0.0035))
     assert 0.63 < SERVICE * motor.peak_torque < 1.10
     choice = replace(task.resolved.choice, motors=(short, motor))
-    asked = replace(task, resolved=replace(task.resolved, choice=choice))
-    assert selection_problem(asked).motors == (motor,)
+    task = replace(task, resolved=replace(task.resolved, choice=choice))
+    assert selection_problem(task).motors == (motor,)
 
 
 @pytest.mark.slow
-def test_a_stated_incidence_is_kept_and_no_lighter_than_the_best():
+def test_a_specified_incidence_is_kept_and_no_lighter_than_the_best():
     problem = random_problem(9)
     best = select(problem).best
     for angle in (best.incidence, best.incidence + 0.1):
         specified = select(replace(problem, incidence=angle)).best
         assert specified.incidence == angle
-        assert specified.mass >= best.mass * (1.0 - MASS_DIGITS)
+        assert specified.mass >= best.mass * (1.0 - MASS_TOLERANCE)
     same = select(replace(problem, incidence=best.incidence)).best
-    assert same.mass == pytest.approx(best.mass, rel=MASS_DIGITS)
+    assert same.mass == pytest.approx(best.mass, rel=MASS_TOLERANCE)
 
 
 @pytest.mark.slow
@@ -151,20 +151,20 @@ def test_a_rate_change_alone():
         assert roll.spin_inertia == pytest.approx(pitch.spin_inertia, rel=1e-3)
 
 
-def only(problem, **changes):
+def direct_only(problem, **changes):
     return replace(problem, gears=(DIRECT,), **changes)
 
 
-def reasons(problem):
-    """Of all motors of a problem that none of them solves."""
+def refusal(problem):
+    """The error of an infeasible problem."""
     with pytest.raises(Infeasible) as caught:
         select(problem)
     return caught.value
 
 
 @pytest.mark.exhaustive
-def test_rejections_name_what_is_in_the_way():
-    problem = only(random_problem(9), incidence=None)
+def test_rejections_give_their_reasons():
+    problem = direct_only(random_problem(9), incidence=None)
     best = select(problem).best
     strong = best.motor
     weak = replace(strong, name="weak", peak_torque=0.2 * strong.peak_torque)
@@ -172,44 +172,44 @@ def test_rejections_name_what_is_in_the_way():
     heavy = replace(strong, name="heavy", mass=5.0 * strong.mass)
     unknown = replace(strong, name="unknown", resistance=None, mass=None)
     fleet = (strong, weak, slow, heavy, unknown)
-    # The five best motors are no rejections, nor those of the ten lightest devices.
-    many = tuple(replace(problem.materials[0], name=f"steel {index}") for index in range(10))
+    # The five best motors and those of the ten lightest devices are not rejected.
+    steels = tuple(replace(problem.materials[0], name=f"steel {index}") for index in range(10))
     twins = tuple(replace(strong, name=f"twin {index}") for index in range(4))
-    selection = select(replace(problem, motors=(*fleet, *twins), materials=many))
-    found = {rejection.motor: rejection for rejection in selection.rejections}
-    assert found["weak"].reason is Reason.TORQUE
-    assert " s at best, " in found["weak"].detail
-    assert found["slow"].reason in {Reason.ENVELOPE, Reason.MASS, Reason.SPEED}
-    assert found["heavy"].reason is Reason.HEAVIER
-    assert " g at least" in found["heavy"].detail
-    assert found["unknown"].reason is Reason.FIGURES
-    assert "mass" in found["unknown"].detail
-    assert "resistance" in found["unknown"].detail
-    assert strong.name not in found
+    selection = select(replace(problem, motors=(*fleet, *twins), materials=steels))
+    rejected = {rejection.motor: rejection for rejection in selection.rejections}
+    assert rejected["weak"].reason is Reason.TORQUE
+    assert " s at best, " in rejected["weak"].detail
+    assert rejected["slow"].reason in {Reason.ENVELOPE, Reason.MASS, Reason.SPEED}
+    assert rejected["heavy"].reason is Reason.HEAVIER
+    assert " g at least" in rejected["heavy"].detail
+    assert rejected["unknown"].reason is Reason.FIGURES
+    assert "mass" in rejected["unknown"].detail
+    assert "resistance" in rejected["unknown"].detail
+    assert strong.name not in rejected
 
 
 def test_a_rim_that_would_burst():
-    problem = only(random_problem(9), incidence=None)
-    feeble = tuple(
+    problem = direct_only(random_problem(9), incidence=None)
+    weak_materials = tuple(
         replace(material, yield_strength=1e2, ultimate_strength=None)
         for material in problem.materials
     )
-    error = reasons(replace(problem, materials=feeble))
+    error = refusal(replace(problem, materials=weak_materials))
     assert "stands" in error.message
     assert error.binding == ("hoop_stress",)
 
 
-def test_the_motor_that_comes_closest_is_not_one_that_no_rim_fits_around():
-    """A U15's rotor alone turns Solo12, but r_max is a seventh of its hub."""
+def test_the_closest_motor_is_not_one_without_any_rim():
+    """A U15's rotor alone could turn Solo12, but r_max is a seventh of its hub."""
     robot = read_robot(SOLO12)
     specified = Specification(
         flywheel=FlywheelSection(r_max=0.012),
         motor=MotorSection(name="U15 II KV100, AT2820 KV1050"),
     )
     problem = selection_problem(Task.of(specified, robot))
-    error = reasons(problem)
+    error = refusal(problem)
     assert "AT2820 KV1050 comes closest" in error.message
-    wide = reasons(replace(problem, motors=problem.motors[:1]))
+    wide = refusal(replace(problem, motors=problem.motors[:1]))
     assert (
         "around its hub or the smallest bore allowed its radius is at least 83.45 mm, and "
         "r_max allows 12 mm"
@@ -219,9 +219,9 @@ def test_the_motor_that_comes_closest_is_not_one_that_no_rim_fits_around():
 
 
 @pytest.mark.slow
-def test_infeasible_says_what_would_do():
-    """Each change is proved by searching anew, and hardly less of it would do."""
-    problem = only(random_problem(9), incidence=None)
+def test_a_refusal_names_sufficient_changes():
+    """Each change is confirmed by a new search, and a slightly smaller one is not enough."""
+    problem = direct_only(random_problem(9), incidence=None)
     best = select(problem).best
     motor = replace(best.motor, peak_torque=0.4 * best.motor.peak_torque)
     narrow = replace(problem, motors=(motor,))
@@ -231,20 +231,20 @@ def test_infeasible_says_what_would_do():
     assert error.message.startswith(f"Motor {motor.name} cannot do it at {problem.bus_voltage:g} V")
     assert "alone would do: " in error.hint
     assert "time" in error.relaxations
-    told = re.search(r"([\w-]+) (height|duration|takeoff_velocity|settling) ", error.hint)
-    assert told is not None
-    assert told[1] in {maneuver.name for maneuver in narrow.requirement.maneuvers}
+    match = re.search(r"([\w-]+) (height|duration|takeoff_velocity|settling) ", error.hint)
+    assert match is not None
+    assert match[1] in {maneuver.name for maneuver in narrow.requirement.maneuvers}
     limits = {limit.name: limit for limit in (BUS_VOLTAGE, TIME)}
     value = error.relaxations["time"]
     assert has_device(with_limit(narrow, limits["time"], value))
     assert not has_device(with_limit(narrow, limits["time"], value * (1.0 - ADVICE_PRECISION)))
 
 
-def test_nothing_to_do_and_nothing_to_choose_from():
+def test_incomplete_problems_are_refused():
     problem = random_problem(9)
-    nothing = Requirement((), None, 1.0, None, 0.3)
+    empty = Requirement((), None, 1.0, None, 0.3)
     with pytest.raises(UsageError, match="nothing is required"):
-        select(replace(problem, requirement=nothing))
+        select(replace(problem, requirement=empty))
     with pytest.raises(UsageError, match="no motors"):
         select(replace(problem, motors=()))
     with pytest.raises(UsageError, match="wheel_speed_max"):
@@ -252,7 +252,7 @@ def test_nothing_to_do_and_nothing_to_choose_from():
 
 
 @pytest.mark.slow
-def test_a_stated_wheel_speed_is_a_limit():
+def test_a_specified_wheel_speed_is_a_limit():
     problem = random_problem(9)
     best = lightest(problem)
     fastest = max(demand.peak_speed for demand in best.demands)
@@ -261,8 +261,8 @@ def test_a_stated_wheel_speed_is_a_limit():
     assert slower.mass >= best.mass
 
 
-def test_turned_maneuvers_have_no_say_in_the_incidence():
-    problem = only(random_problem(9), incidence=None)
+def test_maneuvers_with_modules_turned_by_hand_do_not_affect_the_incidence():
+    problem = direct_only(random_problem(9), incidence=None)
     standing = problem.requirement.standing_height
     roll = Disturbance(
         name="push", takeoff_velocity=(0.5, 2.0), torque=(0.2, 0.0, 0.0), onset=0.1, duration=0.05
@@ -272,14 +272,14 @@ def test_turned_maneuvers_have_no_say_in_the_incidence():
     requirement = Requirement((roll, flip), None, 1.0, None, standing)
     found = lightest(replace(problem, requirement=requirement, motors=motors))
     assert {demand.source: demand.incidence for demand in found.demands}["flip"] == 0.0
-    assert found.incidence > 0.5  # Only roll is asked for at the design's own.
+    assert found.incidence > 0.5  # Only roll is required at the design's own incidence.
 
 
-def test_where_no_rim_fits_at_all_none_is_said_to():
-    """A rotor's inertia alone is no wheel."""
+def test_a_refusal_says_where_no_rim_fits():
+    """Even if the rotor's inertia alone would be enough."""
     problem = random_problem(0)
-    room = replace(problem.envelope, wall_min=2.0 * problem.envelope.outer_radius_max)
+    envelope = replace(problem.envelope, wall_min=2.0 * problem.envelope.outer_radius_max)
     with pytest.raises(Infeasible) as caught:
-        select(replace(problem, envelope=room))
+        select(replace(problem, envelope=envelope))
     assert "no rim fits at all" in str(caught.value)
     assert caught.value.largest_spin_inertia == 0.0

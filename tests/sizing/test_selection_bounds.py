@@ -1,4 +1,4 @@
-"""The inertia of the whole for many devices, and bounds that no device falls below."""
+"""Total inertia of many devices, and lower bounds on their mass and spin inertia."""
 
 from dataclasses import astuple, fields, replace
 
@@ -50,7 +50,7 @@ AROUND = {layout: around((0.05, 0.01, 0.02), layout) for layout in (*NAMED, TILT
 
 
 def random_modules(rng, count):
-    """Wheels and drums about their centres, motors behind them and feet below."""
+    """Random wheels and housings about their centres, motors behind them and feet below."""
     wheel = round_body(*rng.uniform([[0.05], [1e-5], [1e-5]], [[0.5], [1e-3], [1e-3]], (3, count)))
     motor = point(rng.uniform(0.02, 0.5, count))
     foot = point(rng.uniform(0.005, 0.1, count))
@@ -60,31 +60,30 @@ def random_modules(rng, count):
     return wheel, motor, depth, foot.shifted(zero, -below), size
 
 
-def whole_of(wheel, motor, depth, foot, size):
+def module_of(wheel, motor, depth, foot, size):
     return wheel + motor.shifted(-depth, np.zeros_like(depth)) + foot, size
 
 
 @pytest.mark.parametrize("layout", AROUND)
-def test_inertia_as_joined_body_by_body(layout):
-    whole, size = whole_of(*random_modules(np.random.default_rng(0), 20))
+def test_total_inertia_equals_the_sum_of_bodies(layout):
+    module, size = module_of(*random_modules(np.random.default_rng(0), 20))
     angles, place = np.linspace(0.0, np.pi / 2.0, 7), AROUND[layout]
-    asked = np.tile(angles, (20, 1))
-    composed = CompositeInertia(ROBOT, layout, whole, place.centers(size) - ROBOT.com)
-    found, upright = composed.at(asked)
+    composite = CompositeInertia(ROBOT, layout, module, place.centers(size) - ROBOT.com)
+    inertia, yaw = composite.at(np.tile(angles, (20, 1)))
     for row in range(20):
-        body = Carrier.of(whole.take(row))
+        body = Carrier.of(module.take(row))
         centers = place.centers(Size(*(float(values[row]) for values in size)))
         expected = [braked(ROBOT, (body,), centers, a, layout).inertia for a in angles]
         np.testing.assert_allclose(
-            found.diagonal[row], [np.diag(whole)[:2] for whole in expected], rtol=1e-12
+            inertia.diagonal[row], [np.diag(total)[:2] for total in expected], rtol=1e-12
         )
-        products = [whole[0, 1] - whole[0, 2] * whole[1, 2] / whole[2, 2] for whole in expected]
-        np.testing.assert_allclose(found.product[row], products, rtol=1e-12)
-        np.testing.assert_allclose(upright[row], [whole[2, 2] for whole in expected], rtol=1e-12)
+        products = [total[0, 1] - total[0, 2] * total[1, 2] / total[2, 2] for total in expected]
+        np.testing.assert_allclose(inertia.product[row], products, rtol=1e-12)
+        np.testing.assert_allclose(yaw[row], [total[2, 2] for total in expected], rtol=1e-12)
 
 
 @pytest.mark.parametrize("layout", AROUND)
-def test_no_larger_or_heavier_module_has_less_inertia(layout):
+def test_no_larger_or_heavier_module_has_less_inertia_than_the_bound(layout):
     """Also where a larger module moves past the robot's centre of mass."""
     rng = np.random.default_rng(1)
     wheel, motor, depth, foot, size = random_modules(rng, 500)
@@ -94,21 +93,21 @@ def test_no_larger_or_heavier_module_has_less_inertia(layout):
     zero = np.zeros_like(depth)
     least = ModuleBounds(wheel.mass, own, motor.mass, depth, zero, size, largest, heaviest)
     grown = Size(*(values * rng.uniform(1.0, 2.0, 500) for values in size))
-    more, ahead = rng.uniform(1.0, 2.0, 500), rng.uniform(0.3, 1.0, 500)
-    modules = whole_of(each(wheel, more), motor, ahead * depth, foot, grown)
+    factors, shares = rng.uniform(1.0, 2.0, 500), rng.uniform(0.3, 1.0, 500)
+    module, _ = module_of(scaled(wheel, factors), motor, shares * depth, foot, grown)
     bound = least_composite_inertia(ROBOT, place, least, layout)
     angles = rng.uniform(0.0, np.pi / 2.0, (500, 1))
     if layout.angle is not None:
         angles[:] = layout.angle
     centers = place.centers(grown) - ROBOT.com
-    whole, _ = CompositeInertia(ROBOT, layout, modules[0], centers).at(angles)
-    assert (bound.inertia.diagonal <= whole.diagonal[:, 0] * (1.0 + 1e-12)).all()
-    assert np.median(bound.inertia.diagonal / whole.diagonal[:, 0]) > 0.6
-    assert (np.abs(whole.product[:, 0] - bound.inertia.product) <= bound.spread).all()
+    inertia, _ = CompositeInertia(ROBOT, layout, module, centers).at(angles)
+    assert (bound.inertia.diagonal <= inertia.diagonal[:, 0] * (1.0 + 1e-12)).all()
+    assert np.median(bound.inertia.diagonal / inertia.diagonal[:, 0]) > 0.6
+    assert (np.abs(inertia.product[:, 0] - bound.inertia.product) <= bound.spread).all()
 
 
-def each(bodies, factors):
-    """Every body so many times as heavy."""
+def scaled(bodies, factors):
+    """Bodies with all mass moments multiplied by factors."""
     return MassMoments(*(getattr(bodies, f.name) * factors for f in fields(bodies)))
 
 
@@ -116,13 +115,13 @@ def each(bodies, factors):
 @pytest.mark.parametrize("seed", fast_subset(3, range(3), pytest.mark.exhaustive))
 @pytest.mark.parametrize("kept", [None, ManeuverReserve(rate=(0.1, 0.02))])
 @pytest.mark.parametrize("layout", [PAIR, TRIAD, TILTED], ids=lambda layout: layout.name)
-def test_more_inertia_and_smaller_shares_ask_for_no_less(layout, kept, seed, coupled):
-    """What the bounds rest on (`selection.bounds`), also where an axis is left to itself."""
+def test_more_inertia_and_smaller_shares_require_no_less(layout, kept, seed, coupled):
+    """The premise of `selection.bounds`, also where an axis is not controlled."""
     rng = np.random.default_rng(seed)
     problem = random_problem(seed)
     pairs = np.array([(m, g) for m in range(3) for g in range(3)])
     drives = drives_of(problem, pairs)
-    # With a gear that speeds up, a wheel may do that a larger one does not.
+    # With a gear that speeds up, a wheel may be feasible where a larger one is not.
     drives = drives.take(drives.armature >= 0.0)
     n, required = len(drives), problem.requirement
     if kept is not None:
@@ -148,7 +147,7 @@ def test_more_inertia_and_smaller_shares_ask_for_no_less(layout, kept, seed, cou
     )
     line = DriveLine(*(np.asarray(values)[:, None, None] for values in astuple(drives.line)))
     for maneuver in problem.requirement.maneuvers:
-        # Wheels that turn beforehand, with or against what is asked.
+        # Wheels that turn beforehand, in the required sense or against it.
         initial_speed = 30.0 * (seed - 1)
         tasks = replace(
             bound_task(maneuver, required, least, intervals, layout), initial_speed=initial_speed
@@ -156,11 +155,11 @@ def test_more_inertia_and_smaller_shares_ask_for_no_less(layout, kept, seed, cou
         bound = smallest_spin_inertia(tasks, columns(drives.line), drives.armature[:, None])
         task = wheel_task([maneuver], required, whole, 0.0, layout.axes(angle))
         task = replace(task, initial_speed=initial_speed)
-        asked = smallest_spin_inertia(task, line, drives.armature[:, None, None])[0]
-        finite = np.isfinite(asked)
+        required_spin = smallest_spin_inertia(task, line, drives.armature[:, None, None])[0]
+        finite = np.isfinite(required_spin)
         assert finite.any()
-        # The search for a wheel ends at half the inertia given: only less may be out of reach.
-        allowed = np.where(finite, asked, np.inf).min(axis=-1) * (1.0 + 1e-9)
+        # The search ends at half the body's inertia: only smaller wheels may be out of range.
+        allowed = np.where(finite, required_spin, np.inf).min(axis=-1) * (1.0 + 1e-9)
         assert (bound <= allowed).all()
 
 
@@ -175,9 +174,9 @@ def test_axes_longer_than_one_bound_those_of_a_range():
     slew = maneuver.slew(inertia, problem.requirement.standing_height)
     roll, pitch = (np.abs(slew.swept) / shares)[0]
     assert load.excess[0, 0] == pytest.approx((roll + pitch) / 2.0, rel=1e-12)
-    way = shares**2 / 0.05
-    assert load.coupling[0, 0] == pytest.approx(2.0 * way.sum(), rel=1e-12)
-    exact = 2.0 * (way[0] * roll + way[1] * pitch) / (roll + pitch)
+    compliance = shares**2 / 0.05
+    assert load.coupling[0, 0] == pytest.approx(2.0 * compliance.sum(), rel=1e-12)
+    exact = 2.0 * (compliance[0] * roll + compliance[1] * pitch) / (roll + pitch)
     assert exact < load.coupling[0, 0]
     assert np.isfinite(smallest_spin_inertia(task, drives.line)).all()
 
@@ -186,7 +185,7 @@ def test_axes_longer_than_one_bound_those_of_a_range():
     ("seed", "layout"), [*((seed, PAIR) for seed in range(8)), (0, TRIAD), (1, TRIAD), (3, TILTED)]
 )
 def test_no_device_falls_below_its_bound(seed, layout):
-    """Devices of random radii and incidence, each at its own fixed point."""
+    """Devices of random radius and incidence, each at its own fixed point."""
     rng = np.random.default_rng(100 + seed)
     problem, floor = random_problem(seed), None
     if seed % 2:
@@ -217,9 +216,9 @@ def test_no_device_falls_below_its_bound(seed, layout):
     )
     start = np.zeros(rows.size)
     point = fixed_point(candidates, start, design, Tolerance(1e-10, 1.0))
-    can = point.feasible
+    feasible = point.feasible
     mass = len(layout) * (candidates.drives.mass + point.shapes.mass)
-    assert (point.spin_inertia[can] >= spin[rows][can] * (1.0 - 1e-9)).all()
-    assert (mass[can] >= masses[material, rows][can] * (1.0 - 1e-9)).all()
+    assert (point.spin_inertia[feasible] >= spin[rows][feasible] * (1.0 - 1e-9)).all()
+    assert (mass[feasible] >= masses[material, rows][feasible] * (1.0 - 1e-9)).all()
     interval = np.searchsorted([c.high for c in intervals], angle).clip(max=len(intervals) - 1)
-    assert (point.spin_inertia[can] >= needed[rows, interval][can] * (1.0 - 1e-9)).all()
+    assert (point.spin_inertia[feasible] >= needed[rows, interval][feasible] * (1.0 - 1e-9)).all()
