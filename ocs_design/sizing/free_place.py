@@ -15,7 +15,7 @@ from ocs_design.robot.collision import CollisionModel, collision_model
 from ocs_design.robot.meshes import trunk_extent, trunk_top
 from ocs_design.robot.probe import Ball, Drum
 from ocs_design.robot.robot import Robot
-from ocs_design.sizing.place import SPACING, Place, Size, around, module_size, place_at
+from ocs_design.sizing.place import SPACING, Place, Size, module_size, place_around, place_at
 
 
 def place_on_top(robot: Robot, layout: Layout = PAIR) -> Place:
@@ -25,10 +25,10 @@ def place_on_top(robot: Robot, layout: Layout = PAIR) -> Place:
     parts of the robot are not checked: see `place_free`. A person wears the device on the back.
     """
     if robot.worn_at is not None:
-        return around(robot.worn_at, layout)
+        return place_around(robot.worn_at, layout)
     # To the micrometre, so that no rounding error of the centre of mass reaches the files.
     forward = round(float(robot.com[0]), 6) + 0.0
-    return around((forward, 0.0, round(trunk_top(robot.tree, robot.trunk), 6)), layout)
+    return place_around((forward, 0.0, round(trunk_top(robot.tree, robot.trunk), 6)), layout)
 
 
 FORWARD, LEFT, UP = np.eye(3)
@@ -78,7 +78,7 @@ class TrunkSide:
         # A rounding error of the centre of mass must not reach the files.
         x, y, z = (round(float(value), 6) + 0.0 for value in origin)
         if not self.layout.pairs:
-            return around((x, y, z), self.layout)
+            return place_around((x, y, z), self.layout)
         outward: list[Direction] = []
         for row, _, _ in self.layout.ring[::2]:
             out_x, out_y, out_z = vector(self.outward + SPACING * row * self.along)
@@ -153,7 +153,7 @@ def _steps(limits: tuple[float, float], step: float) -> list[float]:
 _ROUNDING = 2e-6
 """Places are rounded to the micrometre [m]."""
 
-_NEAR = 0.5
+_CLOSE_GAP = 0.5
 """Gap, relative to a ball's or a module's radius, below which it is checked more closely."""
 
 _SIZES = 5
@@ -219,7 +219,7 @@ def place_free(robot: Robot, envelope: Envelope, layout: Layout = PAIR) -> FreeP
         return FreePlace(on_top, ON_TOP, free=True)
     for face, spot in search.spots():
         if search.is_free(face.place(spot)):
-            place = face.place(search.drawn_in(face, spot))
+            place = face.place(search.moved_closer(face, spot))
             return FreePlace(place, face.name, free=True)
     return FreePlace(on_top, ON_TOP, free=False)
 
@@ -247,24 +247,27 @@ class Search:
 
     def spots(self) -> list[tuple[TrunkSide, Spot]]:
         """Spots of all faces, the nearest first."""
-        found = [
+        spots = [
             (face, spot)
             for face in faces(self.collision.robot, self.layout)
             for spot in face.spots(self.sizes.largest.reach)
         ]
-        return sorted(found, key=lambda each: self.cost(each[0].place(each[1])))
+        return sorted(
+            spots,
+            key=lambda found: self.added_inertia(found[0].place(found[1])),
+        )
 
     def is_free(self, place: Place) -> bool:
         """Whether the place is free, first in the nominal posture, which is quick, then in all."""
-        return self.is_clear(place) and not any(
+        return self.is_clear_at_rest(place) and not any(
             self.touches(ball) for size in self.sizes.all() for ball in self._balls(place, size)
         )
 
-    def is_clear(self, place: Place) -> bool:
+    def is_clear_at_rest(self, place: Place) -> bool:
         """Whether the largest modules hit nothing in the nominal posture."""
-        return self.is_off(self._balls(place, self.sizes.largest))
+        return self.clears_limbs(self._balls(place, self.sizes.largest))
 
-    def is_off(self, solids: Sequence[Ball | Drum]) -> bool:
+    def clears_limbs(self, solids: Sequence[Ball | Drum]) -> bool:
         """Whether solids hit no limb in the nominal posture."""
         collision, pose = self.collision, self.collision.nominal
         # The trunk's box ends at the face that the modules stand on.
@@ -274,7 +277,7 @@ class Search:
             for solid in collision.near(solids, pose, others, -_ROUNDING)
         )
 
-    def drawn_in(self, face: TrunkSide, spot: Spot) -> Spot:
+    def moved_closer(self, face: TrunkSide, spot: Spot) -> Spot:
         """Free spot refined between grid points, nearer to the face and the trunk's centre."""
         for axis in (2, 1, 0):
             step = np.sign(spot[axis]) * min(STEP * self.sizes.largest.reach, abs(spot[axis]))
@@ -290,7 +293,7 @@ class Search:
     def touches(self, solid: Ball | Drum) -> bool:
         """Whether a solid touches anything during landings, or between the sampled postures."""
         # Thin tubes are checked as closely as the modules on them.
-        gap = _NEAR * max(solid.radius, SPACING * self.sizes.smallest.reach)
+        gap = _CLOSE_GAP * max(solid.radius, SPACING * self.sizes.smallest.reach)
         near = nearest_in_landings(
             self.collision, solid, within=gap, enough=-_ROUNDING, on_feet=self.on_feet
         )
@@ -300,7 +303,7 @@ class Search:
         """Balls around all modules of one size, with the room that they need."""
         return [Ball(center, SPACING * size.reach) for center in place.centers(size)]
 
-    def cost(self, place: Place) -> float:
+    def added_inertia(self, place: Place) -> float:
         """Inertia about roll and pitch that the largest module adds, relative to the robot's."""
         robot = self.collision.robot
         x, y, z = (place.centers(self.sizes.largest) - robot.com).T

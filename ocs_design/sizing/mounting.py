@@ -39,7 +39,7 @@ from ocs_design.robot.probe import Drum
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.surface import HeightMap, trunk_back, trunk_surface
 from ocs_design.sizing.footing.contact import (
-    PROUD,
+    INTERFERENCE_MAX,
     FootContact,
     contact_of,
     disc_points,
@@ -48,8 +48,8 @@ from ocs_design.sizing.footing.contact import (
     ring_points,
     under_pedestal,
 )
-from ocs_design.sizing.footing.feet import device_size, feet_of, leans
-from ocs_design.sizing.footing.formed import TILT_MAX, off_trunk
+from ocs_design.sizing.footing.feet import device_size, feet_of, is_tilted
+from ocs_design.sizing.footing.formed import TILT_MAX, distance_from_trunk
 from ocs_design.sizing.footing.mast import Pads, pads_needed
 from ocs_design.sizing.footing.plate import SPREAD
 from ocs_design.sizing.free_place import place_free
@@ -99,31 +99,33 @@ def mounting_open_points(mounting: DeviceMounting) -> tuple[OpenPoint, ...]:
 
     Feet on a trunk of unknown shape are not an open point: `known` reports them.
     """
-    found: list[OpenPoint] = []
+    points: list[OpenPoint] = []
     cure = "choose a layout whose axes are horizontal: --layout pair, triad or single"
-    leaning = [contact.name for contact in mounting.feet if contact.leans]
-    use = max((pedestal_use(each, mounting.module_mass) for each in mounting.pedestals), default=0)
-    if leaning:
-        largest = max(mounting.pedestals, key=lambda each: each.mass)
-        mass = format_quantity(sum(each.mass for each in mounting.pedestals), "g", digits=3)
+    tilted = [contact.name for contact in mounting.feet if contact.tilted]
+    use = max(
+        (pedestal_use(pedestal, mounting.module_mass) for pedestal in mounting.pedestals), default=0
+    )
+    if tilted:
+        largest = max(mounting.pedestals, key=lambda pedestal: pedestal.mass)
+        mass = format_quantity(sum(pedestal.mass for pedestal in mounting.pedestals), "g", digits=3)
         length, width, height = (format_quantity(size, "mm", digits=2) for size in largest.sizes)
         what = (
-            f"{some_of(leaning, len(leaning))} cannot stand on the trunk: a wheel whose axis is "
+            f"{some_of(tilted, len(tilted))} cannot stand on the trunk: a wheel whose axis is "
             "not horizontal needs a pedestal, and the trunk is nowhere flat enough for all "
             f"pedestals and other feet. Pedestals would weigh {mass} together, the largest "
             f"{length} long, {width} wide and {height} high, and use {use:.0%} of their strength "
             "at 20 g; mass, positions and files do not include them"
         )
-        found.append(OpenPoint(what=what, cure=cure))
+        points.append(OpenPoint(what=what, cure=cure))
     elif use > 1.0:
         what = f"the pedestals' screws or threads would use {use:.0%} of their strength at 20 g"
-        found.append(OpenPoint(what=what, cure=cure))
-    found += _hanging(mounting)
-    hit = _hit(mounting)
-    if hit:
+        points.append(OpenPoint(what=what, cure=cure))
+    points += _unsupported_feet(mounting)
+    collision = _collision(mounting)
+    if collision:
         cure = f"give another place with {_position_option(mounting.layout)}"
-        found.append(OpenPoint(what=hit, cure=cure))
-    return tuple(found)
+        points.append(OpenPoint(what=collision, cure=cure))
+    return tuple(points)
 
 
 def _position_option(layout: Layout) -> str:
@@ -132,29 +134,29 @@ def _position_option(layout: Layout) -> str:
     return "--position X,Y,Z" if one else "--position, with x, y and z of every wheel"
 
 
-def _hanging(mounting: DeviceMounting) -> Iterator[OpenPoint]:
+def _unsupported_feet(mounting: DeviceMounting) -> Iterator[OpenPoint]:
     """Feet that are not held, and what would hold them; similar ones are reported once."""
     feet, pads = mounting.feet, mounting.pads
-    loose = [contact for contact in feet if contact.held is False and not contact.leans]
+    unsupported = [contact for contact in feet if contact.held is False and not contact.tilted]
     in_pairs = any(contact.name.startswith(SIDES[0]) for contact in feet)
     more_feet = (
         "make a plate that carries all feet, or choose another layout: --layout pair, double-pair "
         "or triad"
     )
-    proud = max((contact.proud for contact in loose), default=0.0)
-    if proud > PROUD:
-        reaches_up = format_quantity(proud, "mm", digits=2)
+    interference = max((contact.interference for contact in unsupported), default=0.0)
+    if interference > INTERFERENCE_MAX:
+        reaches_up = format_quantity(interference, "mm", digits=2)
         what = f"the {feet[0].on} under the feet reaches {reaches_up} above their underside"
         higher = f"stand the modules higher with {_position_option(mounting.layout)}"
         yield OpenPoint(what=what, cure=higher if in_pairs else more_feet)
-    elif loose:
-        gap = max(contact.gap or 0.0 for contact in loose)
-        share = min(contact.share or 0.0 for contact in loose)
-        names = some_of(list(dict.fromkeys(contact.name for contact in loose)))
+    elif unsupported:
+        gap = max(contact.gap or 0.0 for contact in unsupported)
+        share = min(contact.share or 0.0 for contact in unsupported)
+        names = some_of(list(dict.fromkeys(contact.name for contact in unsupported)))
         most = "at screws the gap is up to " + format_quantity(gap, "mm", digits=2)
         at_screws = most if isfinite(gap) else "under screws there is nothing"
         what = (
-            f"{names}: {share:.0%} of the underside touches the {loose[0].on}; {at_screws}"
+            f"{names}: {share:.0%} of the underside touches the {unsupported[0].on}; {at_screws}"
             if share > 0.0
             else "the feet hang in the air: the trunk is not below them, or too far below"
         )
@@ -167,20 +169,20 @@ def _hanging(mounting: DeviceMounting) -> Iterator[OpenPoint]:
         cures = [cure] if in_pairs else []
         if pads is not None:
             wide, aside, up = (
-                format_quantity(each, "mm", digits=2)
-                for each in (pads.diameter, pads.aside, pads.up)
+                format_quantity(length, "mm", digits=2)
+                for length in (pads.diameter, pads.aside, pads.up)
             )
             cures.append(
                 "keep limbs and protrusions clear of its back, which is flat enough for the "
                 f"{pads.screw} screws of a mast"
-                if pads.there
+                if pads.exist
                 else f"make four flat spots of {wide} on its back, {aside} apart sideways and at "
                 f"least {up} up and down, for a mast's {pads.screw} screws, nothing behind them"
             )
         yield OpenPoint(what=what, cure=", or ".join(cures) or more_feet)
 
 
-def _hit(mounting: DeviceMounting) -> str:
+def _collision(mounting: DeviceMounting) -> str:
     """Collision in the nominal posture or in a landing, as a clause; empty if there is none."""
     nearest, landing = mounting.nearest, mounting.landing
     if nearest is not None and nearest.distance < 0.0:
@@ -192,7 +194,7 @@ def _hit(mounting: DeviceMounting) -> str:
 
 
 def mounting_of(
-    robot: Robot, device: Device, maneuvers: Sequence[Maneuver], whole: MassProperties
+    robot: Robot, device: Device, maneuvers: Sequence[Maneuver], total: MassProperties
 ) -> DeviceMounting:
     """How a device sits on its robot.
 
@@ -200,14 +202,20 @@ def mounting_of(
         robot: without the device.
         device: as designed.
         maneuvers: maneuvers, some of which may have an incidence of their own.
-        whole: robot and device together, in B.
+        total: robot and device together, in B.
     """
     collision = collision_model(robot)
-    turned = {each.incidence: each for each in (device, *(device.as_flown(m) for m in maneuvers))}
-    flown = [[module_solids(each, module) for module in each.modules] for each in turned.values()]
+    turned = {
+        turned_device.incidence: turned_device
+        for turned_device in (device, *(device.as_flown(m) for m in maneuvers))
+    }
+    flown = [
+        [module_solids(turned_device, module) for module in turned_device.modules]
+        for turned_device in turned.values()
+    ]
     solids = [solid for modules in flown for module in modules for solid in module.all]
     solids += plate_solids(device.plate)
-    solids += [solid for each in device.pedestals for solid in pedestal_solids(each)]
+    solids += [solid for pedestal in device.pedestals for solid in pedestal_solids(pedestal)]
     surface = trunk_surface(robot) if device.carrier.mass > 0.0 else None
     feet = contacts_of(robot, device)
     # With a mast's formed block, the last resort, heels are assumed not to be kicked up against it.
@@ -217,14 +225,14 @@ def mounting_of(
         nearest=_nearest_part(collision, device, flown, surface),
         landing=_clearance(landing),
         reachable=reaches(collision, solids),
-        com_shift=whole.com - robot.com,
-        inertia_change=np.diag(whole.inertia) / np.diag(robot.inertia) - 1.0,
+        com_shift=total.com - robot.com,
+        inertia_change=np.diag(total.inertia) / np.diag(robot.inertia) - 1.0,
         feet=feet,
         pedestals=device.pedestals
         or tuple(
             pedestal_of(device, module)
             for module, contact in zip(device.modules, feet, strict=False)
-            if contact.leans
+            if contact.tilted
         ),
         module_mass=device.flywheel.mass + device.carrier.mass,
         pads=pads_needed(robot, feet_of(device), device.layout)
@@ -255,8 +263,8 @@ def placement_warnings(
     Raises:
         SpecificationError: `strict`, and there is a collision.
     """
-    hit = _hit(mounting)
-    if not hit:
+    collision = _collision(mounting)
+    if not collision:
         return ()
     layout, hint = device.layout, "no free place was found"
     if not specified:
@@ -268,8 +276,8 @@ def placement_warnings(
         place = ",".join(f"{1e3 * float(value):.1f}mm" for value in left)
         hint = f"--position {place}, {best.face} the trunk, would be free"
     if strict:
-        raise SpecificationError(f"--strict: {hit}", hint=hint)
-    return (f"{hit}; {hint}",)
+        raise SpecificationError(f"--strict: {collision}", hint=hint)
+    return (f"{collision}; {hint}",)
 
 
 def _nearest_part(
@@ -283,13 +291,13 @@ def _nearest_part(
     Feet and plate stand on the trunk, so their distance from it does not count. Where the trunk's
     surface is known, it replaces the trunk's convex hull.
     """
-    modules = [module for each in flown for module in each]
-    frames = {each.module: pedestal_solids(each) for each in device.pedestals}
+    modules = [module for modules_at_incidence in flown for module in modules_at_incidence]
+    pedestals = {pedestal.module: pedestal_solids(pedestal) for pedestal in device.pedestals}
     below = chain(
-        plate_solids(device.plate), *frames.values(), *(module.foot for module in modules)
+        plate_solids(device.plate), *pedestals.values(), *(module.foot for module in modules)
     )
     bodies = [solid for module in modules for solid in module.body]
-    found = _clearance(
+    nearest = _clearance(
         collision.nearest(solid, collision.nominal, parts)
         for solids, parts in (
             (bodies, collision.parts if surface is None else collision.limbs),
@@ -297,32 +305,34 @@ def _nearest_part(
         )
         for solid in solids
     )
-    known = [] if found is None else [found]
+    clearances = [] if nearest is None else [nearest]
     if surface is not None:
         trunk = collision.robot.trunk
-        known += [Clearance(trunk, _above(surface, solid)) for solid in bodies]
-        known = [each for each in known if np.isfinite(each.distance)]
-    if not known:
+        clearances += [Clearance(trunk, _height_above(surface, solid)) for solid in bodies]
+        clearances = [clearance for clearance in clearances if np.isfinite(clearance.distance)]
+    if not clearances:
         return None
-    for each in flown:
-        for (_, one), (module, other) in combinations(zip(device.modules, each, strict=True), 2):
+    for modules_at_incidence in flown:
+        for (_, one), (module, other) in combinations(
+            zip(device.modules, modules_at_incidence, strict=True), 2
+        ):
             apart = min(collision.between(*solids) for solids in product(one.all, other.all))
-            known.append(Clearance(flywheel_name(module), apart))
-        for module, own in zip(device.modules, each, strict=True):
-            known += [
+            clearances.append(Clearance(flywheel_name(module), apart))
+        for module, solids_of_module in zip(device.modules, modules_at_incidence, strict=True):
+            clearances += [
                 Clearance("pedestal", collision.between(body, solid))
-                for name, frame in frames.items()
+                for name, frame in pedestals.items()
                 if name != module.name
-                for body, solid in product(own.all, frame)
+                for body, solid in product(solids_of_module.all, frame)
             ]
     discs = plate_solids(device.plate)[:1] + plate_heads(device.plate) + mast_solids(device.plate)
-    known += [
+    clearances += [
         Clearance("plate", collision.between(body, solid)) for body in bodies for solid in discs
     ]
-    return min(known, key=lambda each: each.distance)
+    return min(clearances, key=lambda clearance: clearance.distance)
 
 
-def _above(surface: HeightMap, solid: Drum) -> float:
+def _height_above(surface: HeightMap, solid: Drum) -> float:
     """Least height of a cylinder above the trunk's surface [m]; inf: nothing is below."""
     side = np.cross(solid.axis, [0.0, 0.0, 1.0] if abs(solid.axis[2]) < 0.9 else [1.0, 0.0, 0.0])
     side /= np.linalg.norm(side)
@@ -340,12 +350,12 @@ def _above(surface: HeightMap, solid: Drum) -> float:
     return float((points[:, 2] - surface.height(points[:, 0], points[:, 1])).min())
 
 
-def _clearance(found: Iterable[Nearest | None]) -> Clearance | None:
-    known = [nearest for nearest in found if nearest is not None]
+def _clearance(candidates: Iterable[Nearest | None]) -> Clearance | None:
+    known = [each for each in candidates if each is not None]
     if not known:
         return None
-    least = min(known, key=lambda nearest: nearest.distance)
-    return Clearance(least.part.name, least.distance)
+    nearest = min(known, key=lambda each: each.distance)
+    return Clearance(nearest.part.name, nearest.distance)
 
 
 def contacts_of(robot: Robot, device: Device) -> tuple[FootContact, ...]:
@@ -357,28 +367,28 @@ def contacts_of(robot: Robot, device: Device) -> tuple[FootContact, ...]:
     if device.carrier.mass == 0.0:
         return ()
     surface, plate, feet = trunk_surface(robot), device.plate, feet_of(device)
-    height, found = foot_of(device).wheel_height, []
-    for module, middle in zip(device.modules, feet.middles, strict=True):
+    height, contacts = foot_of(device).wheel_height, []
+    for module, center in zip(device.modules, feet.centers, strict=True):
         name, underside = part_name("foot", module.name), float(module.position[2]) - height
-        under = [each for each in device.pedestals if each.module == module.name]
+        under = [pedestal for pedestal in device.pedestals if pedestal.module == module.name]
         if under:
-            found += [under_pedestal(surface, device, module, each) for each in under]
-        elif leans(module):
-            found.append(FootContact(name, "trunk", 0.0, inf, 0.0, held=False, leans=True))
+            contacts += [under_pedestal(surface, device, module, pedestal) for pedestal in under]
+        elif is_tilted(module):
+            contacts.append(FootContact(name, "trunk", 0.0, inf, 0.0, held=False, tilted=True))
         elif plate is not None:
             # A plate supports a foot around its screw circle.
             gap = min(abs(underside - plate.top - level) for level in plate.heights)
-            share = float(_over_plate(plate, disc_points(middle, feet.radius)).mean())
-            lands = ring_points(middle, *feet.lands)
-            held = bool(_over_plate(plate, lands).all()) and gap <= PROUD
-            found.append(FootContact(name, "plate", share, gap, 0.0, held))
+            share = float(_over_plate(plate, disc_points(center, feet.radius)).mean())
+            lands = ring_points(center, *feet.lands)
+            held = bool(_over_plate(plate, lands).all()) and gap <= INTERFERENCE_MAX
+            contacts.append(FootContact(name, "plate", share, gap, 0.0, held))
         else:
-            found.append(
-                contact_of(name, surface, middle, feet.radius, plane=underside, lands=feet.lands)
+            contacts.append(
+                contact_of(name, surface, center, feet.radius, plane=underside, lands=feet.lands)
             )
     if plate is not None:
-        found += _plate_contacts(robot, plate)
-    return tuple(found)
+        contacts += _plate_contacts(robot, plate)
+    return tuple(contacts)
 
 
 def _plate_contacts(robot: Robot, plate: CarrierPlate) -> Iterator[FootContact]:
@@ -400,24 +410,34 @@ def _plate_contacts(robot: Robot, plate: CarrierPlate) -> Iterator[FootContact]:
                 for low, high in (plate.block, (mast.low, mast.high))
             )
             outline = max(block, upright - mast.spacer)
-            off = off_trunk(surface, plate)
-            if off is not None:
+            distance = distance_from_trunk(surface, plate)
+            if distance is not None:
                 # Distance of the trunk from a formed block at points all over its front.
-                known = np.nan_to_num(off, nan=inf)
+                known = np.nan_to_num(distance, nan=inf)
                 gap = max(0.0, float(known.max()))
-                proud = max(0.0, -float(known.min()), upright - mast.spacer - plane)
+                interference = max(0.0, -float(known.min()), upright - mast.spacer - plane)
                 share = float((np.abs(known) <= TOUCH).mean())
-                held = gap <= TOUCH and proud <= PROUD and steepest(plate) <= TILT_MAX
-                yield FootContact("mast's block", "trunk", share, gap, proud, held)
+                held = (
+                    gap <= TOUCH
+                    and interference <= INTERFERENCE_MAX
+                    and steepest(plate) <= TILT_MAX
+                )
+                yield FootContact("mast's block", "trunk", share, gap, interference, held)
                 return
     what = "plate" if mast is None else "mast"
     for number, (hole, sleeve) in enumerate(zip(plate.trunk, plate.sleeves, strict=True), start=1):
         along, across = hole if mast is None else hole[::-1]
         name, middle = f"{what}'s screw {number}", (x + along, y + across)
         radius = plate.sleeve_radius
-        found = contact_of(name, surface, middle, radius, plane=plane - sleeve, lands=(0.0, radius))
-        proud = max(found.proud, outline - plane)
-        yield replace(found, proud=proud, held=found.held and proud <= PROUD)
+        contact = contact_of(
+            name, surface, middle, radius, plane=plane - sleeve, lands=(0.0, radius)
+        )
+        interference = max(contact.interference, outline - plane)
+        yield replace(
+            contact,
+            interference=interference,
+            held=contact.held and interference <= INTERFERENCE_MAX,
+        )
 
 
 def _over_plate(plate: CarrierPlate, points: FloatArray) -> NDArray[np.bool_]:

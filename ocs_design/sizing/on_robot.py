@@ -250,7 +250,7 @@ class OnRobot:
         if not least <= feet <= least + _TOO_THICK:
             feet = least
         footing = self.footing(device, problem) or Footing(problem.place, None)
-        carried = footing.carried(self.robot.mass_properties)
+        carried = footing.added_to(self.robot.mass_properties)
         place = problem.place if problem.place.specified else footing.place
         return replace(problem, robot=carried, place=place, foot_plate=feet)
 

@@ -24,11 +24,11 @@ class Size(NamedTuple, Generic[Real]):
 
     Attributes:
         reach: radius that housing, motor and the foot's base stay within at any incidence [m].
-        standing: height of the wheel's centre above the surface that the module stands on [m].
+        wheel_height: height of the wheel's centre above the surface that the module stands on [m].
     """
 
     reach: Real
-    standing: Real
+    wheel_height: Real
 
 
 def wheel_size(outer_radius: Real, height: Real) -> Size[Real]:
@@ -54,10 +54,10 @@ def module_size(
     reach: Any = mount_reach
     housing: Housing[Real] = Housing(outer_radius, height, MountHoles(reach))
     foot: Foot[Real] = Foot(housing, foot_plate)
-    around = (housing.radius**2 + housing.half_height**2) ** 0.5
+    housing_reach = (housing.radius**2 + housing.half_height**2) ** 0.5
     depth = larger(foot.back + behind.depth, behind.from_wheel)
-    motor = (depth**2 + behind.radius**2) ** 0.5
-    return Size(larger(larger(around, motor), foot.base_radius), foot.wheel_height)
+    motor_reach = (depth**2 + behind.radius**2) ** 0.5
+    return Size(larger(larger(housing_reach, motor_reach), foot.base_radius), foot.wheel_height)
 
 
 @dataclass(frozen=True)
@@ -85,23 +85,25 @@ class Place:
 
     def centers(self, size: Size[float] | Size[FloatArray]) -> FloatArray:
         """Centres of the modules in B [m], shape (..., n, 3), for sizes of shape (...)."""
-        reach, standing = (np.asarray(each)[..., None] for each in size)
+        reach, wheel_height = (np.asarray(length)[..., None] for length in size)
         centers = np.array(self.origins) + reach[..., None] * np.array(self.outward)
         if self.upright:
-            centers[..., 2] += standing
+            centers[..., 2] += wheel_height
         return np.asarray(centers)
 
 
-def around(middle: Direction, layout: Layout, aside: float = 0.0) -> Place:
+def place_around(middle: Direction, layout: Layout, lateral_offset: float = 0.0) -> Place:
     """Upright modules around a point of the surface that they stand on, in B [m].
 
     Args:
         middle: that point. layout: of the modules.
-        aside: extra distance of each to its side, beyond what it needs [m].
+        lateral_offset: extra distance of each to its side, beyond what it needs [m].
     """
     x, y, z = middle
-    outward = tuple(vector(each) for each in np.array(layout.ring) * SPACING)
-    origins = tuple((x, y + float(np.sign(out)) * aside, z) for _, out, _ in outward)
+    outward = tuple(vector(direction) for direction in np.array(layout.ring) * SPACING)
+    origins = tuple(
+        (x, y + float(np.sign(lateral)) * lateral_offset, z) for _, lateral, _ in outward
+    )
     return Place(origins, outward, upright=True)
 
 
@@ -113,4 +115,4 @@ def place_at(position: tuple[float, ...], layout: Layout = PAIR) -> Place:
     places = np.reshape(position, (-1, 3))
     if layout == PAIR:
         places = np.concatenate([places, places * [1.0, -1.0, 1.0]])
-    return Place(tuple(vector(each) for each in places), ((0.0, 0.0, 0.0),) * len(places))
+    return Place(tuple(vector(center) for center in places), ((0.0, 0.0, 0.0),) * len(places))

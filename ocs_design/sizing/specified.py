@@ -53,7 +53,7 @@ def selection_problem(task: Task) -> SelectionProblem | None:
     footing = footing_of(robot, resolved.envelope, specified.position, layout)
     angle = layout.angle if specified.alpha is None else specified.alpha
     problem = SelectionProblem(
-        robot=footing.carried(robot.mass_properties),
+        robot=footing.added_to(robot.mass_properties),
         requirement=specified_requirement(task),
         envelope=resolved.envelope,
         place=footing.place,

@@ -178,7 +178,7 @@ def test_a_mount_that_alternates_between_iterations_is_refused(monkeypatch, chan
     footings = cycle([Footing(place, mast) for mast in masts])
 
     def alternating_footing(search, problem, _device):
-        return replace(problem, robot=next(footings).carried(search.robot.mass_properties))
+        return replace(problem, robot=next(footings).added_to(search.robot.mass_properties))
 
     monkeypatch.setattr(on_robot.OnRobot, "_own_footing", alternating_footing)
     refused = None

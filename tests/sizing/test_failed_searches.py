@@ -22,7 +22,7 @@ def test_a_failed_search_covers_only_feet_that_are_larger_in_every_way(name):
 
     larger, smaller = (replace(FEET, **{name: by * getattr(FEET, name)}) for by in (1.1, 0.9))
     for count, feet in ((1, FEET), (1, larger), (2, smaller), (3, replace(FEET, slopes=(1, 1)))):
-        assert failed.found(search, robot, feet, PAIR) is None
+        assert failed.run(search, robot, feet, PAIR) is None
         assert len(searched) == count
 
 
@@ -32,7 +32,7 @@ def test_no_mast_is_searched_where_a_smaller_module_had_none(monkeypatch):
     def search(*arguments):
         searched.append(arguments)
 
-    monkeypatch.setattr(mast, "_mast_spot", search)
+    monkeypatch.setattr(mast, "_mast_place", search)
     pairs = Layout(LayoutName("double-pair"))
     for mass, layout in ((3.0, PAIR), (4.0, PAIR), (2.0, PAIR), (2.5, PAIR), (4.0, pairs)):
         assert mast.footing_behind(robot, replace(FEET, mass=mass), layout, failed) is None

@@ -49,8 +49,8 @@ from ocs_design.robot.surface import trunk_surface
 from ocs_design.sizing.design import design_device
 from ocs_design.sizing.footing.contact import FLATNESS
 from ocs_design.sizing.footing.feet import device_size, feet_of
-from ocs_design.sizing.footing.on_top import ASIDE
-from ocs_design.sizing.footing.plate import POST_SCREW, held_at
+from ocs_design.sizing.footing.on_top import LATERAL_OFFSETS
+from ocs_design.sizing.footing.plate import POST_SCREW, support_at
 from ocs_design.sizing.footing.standing import footing_of, stand_on_trunk
 from ocs_design.sizing.free_place import place_free, place_on_top
 from ocs_design.sizing.mounting import contacts_of, mounting_of, mounting_open_points
@@ -168,7 +168,7 @@ def test_a_foot_inside_the_trunk_is_reported(boxed):
     robot = boxed(0.6)
     device = pair_at(0.1, -0.004)
     mounting = mounting_of(robot, device, (), robot.mass_properties)
-    assert mounting.feet[0].proud == pytest.approx(0.004)
+    assert mounting.feet[0].interference == pytest.approx(0.004)
     assert "reaches 4 mm above" in mounting_open_points(mounting)[0].what
 
 
@@ -270,7 +270,7 @@ def test_wheels_without_feet_have_no_contacts(boxed):
 def test_the_selection_counts_the_plate_of_the_largest_modules(boxed):
     robot = boxed(0.1)
     footing = footing_of(robot, default_envelope(robot))
-    carried = footing.carried(robot.mass_properties)
+    carried = footing.added_to(robot.mass_properties)
     assert carried.mass == pytest.approx(robot.mass + footing.plate.mass)
     assert footing.place.origins[0][2] == pytest.approx(TOP + footing.plate.thickness)
     wide = boxed(1.0)
@@ -432,7 +432,7 @@ def test_modules_on_both_sides_of_an_arm_over_the_trunk(read, name, width):
     mounting_without_faults(robot, device)
     (aside,) = {round(float(abs(each.position[1])), 9) for each in device.modules}
     reach = SPACING * device_size(device).reach
-    assert min(abs(aside - reach - each) for each in ASIDE) < 1e-9
+    assert min(abs(aside - reach - each) for each in LATERAL_OFFSETS) < 1e-9
     arm = block((-0.3, 0.3), (-0.03, 0.03), (0.1, 0.16))
     assert max((solid ^ arm).volume() for solid in solids_of(device).values()) < 1e-12
     # Spheres around the modules, which are as close as possible, would touch the arm.
@@ -454,7 +454,7 @@ def test_posts_are_limited_by_the_longest_screws(boxed, monkeypatch, thickness, 
     """170 mm posts, 15.2 mm threads and a 12 mm plate need M8 x 200; no screw fits 15 mm."""
     monkeypatch.setattr("ocs_design.sizing.footing.plate.STOCK", (thickness,))
     robot = boxed(0.24, 0.32, bars(0.17))
-    _, plate = held_at(trunk_surface(robot), feet_of(pair_at(0.1)), None, (POST_SCREW,))
+    _, plate = support_at(trunk_surface(robot), feet_of(pair_at(0.1)), None, (POST_SCREW,))
     assert (plate and plate.screw_lengths[0]) == length
 
 
@@ -462,7 +462,7 @@ def test_posts_are_limited_by_the_longest_screws(boxed, monkeypatch, thickness, 
 def test_at_a_specified_height_a_thicker_plate_has_shorter_sleeves(boxed, up, thickness):
     """Sleeves of up to 30 mm and the plate make up the height of the feet above the trunk."""
     feet, robot = feet_of(pair_at(0.1)), boxed(0.24, 0.32)
-    height, plate = held_at(trunk_surface(robot), feet, TOP + up)
+    height, plate = support_at(trunk_surface(robot), feet, TOP + up)
     assert height == pytest.approx(TOP + up)
     assert plate.thickness == thickness
     assert plate.sleeves == pytest.approx((up - thickness,) * 4)
@@ -474,7 +474,7 @@ def test_beside_a_plate_the_trunk_may_reach_the_top_of_the_plate(boxed, high, st
     feet, up = feet_of(pair_at(0.1)), 0.0335
     distance = feet.reach + 0.003
     surface = trunk_surface(boxed(0.24, 0.32, bars(high, (distance, -distance))))
-    _, plate = held_at(surface, feet, TOP + up)
+    _, plate = support_at(surface, feet, TOP + up)
     assert (plate is not None) == stands
     assert plate is None or plate.thickness == 4e-3
 

@@ -136,4 +136,4 @@ def test_on_top_a_module_stands_on_its_foot():
     robot = robot_by_hand(2.5, (0.03, 0.05, 0.07))
     place = place_on_top(robot)
     size = module_size(0.04, 0.004, Behind(0.03, 0.02), 0.0)
-    assert place.centers(size)[0, 2] - place.origins[0][2] == pytest.approx(size.standing)
+    assert place.centers(size)[0, 2] - place.origins[0][2] == pytest.approx(size.wheel_height)

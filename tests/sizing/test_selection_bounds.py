@@ -16,7 +16,7 @@ from ocs_design.parts.moments import MassMoments, point, round_body
 from ocs_design.parts.solids import Carrier
 from ocs_design.requirement.requirement import ManeuverReserve
 from ocs_design.robot.mass import MassProperties
-from ocs_design.sizing.place import Place, Size, around
+from ocs_design.sizing.place import Place, Size, place_around
 from ocs_design.sizing.selection.bounds import (
     Interval,
     RimFloor,
@@ -46,7 +46,9 @@ PLACE = Place(
 TRIAD = Layout(LayoutName.TRIAD)
 TILTED = Layout(LayoutName.BY_HAND, ((0.6, 0.0, 0.8), (0.0, 1.0, 0.0)))
 NAMED = [Layout(name) for name in LayoutName if name is not LayoutName.BY_HAND]
-AROUND = {layout: around((0.05, 0.01, 0.02), layout) for layout in (*NAMED, TILTED)} | {PAIR: PLACE}
+AROUND = {layout: place_around((0.05, 0.01, 0.02), layout) for layout in (*NAMED, TILTED)} | {
+    PAIR: PLACE
+}
 
 
 def random_modules(rng, count):
@@ -191,7 +193,7 @@ def test_no_device_falls_below_its_bound(seed, layout):
     if seed % 2:
         problem = replace(with_offset_load(problem, seed), foot_plate=0.0084)
     if layout != PAIR:
-        place = around((0.0, 0.0, 0.1), layout)
+        place = place_around((0.0, 0.0, 0.1), layout)
         problem = replace(problem, layout=layout, place=place, incidence=layout.angle)
     floor = RimFloor.of(problem)
     pairs = np.array([(m, g) for m in range(3) for g in range(3)])

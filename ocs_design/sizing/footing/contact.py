@@ -27,7 +27,7 @@ from ocs_design.robot.surface import HeightMap
 FLATNESS = 1e-3
 """Largest depth of a trunk's surface below the part that stands on it [m]: a washer's thickness."""
 
-PROUD = 1e-4
+INTERFERENCE_MAX = 1e-4
 """Largest height of a trunk's surface above the part's underside [m]: rounding of meshes."""
 
 
@@ -56,12 +56,12 @@ def ring_points(middle: Sequence[float], inner: float, outer: float) -> FloatArr
 
 def plate_points(plate: CarrierPlate) -> FloatArray:
     """Points covering a plate in B [m], shape (n, 2)."""
-    places = _within(plate.shape) + np.array(plate.position[:2])
+    places = _outline_points(plate.shape) + np.array(plate.position[:2])
     return np.concatenate([places + np.array([row, 0.0]) for row in plate.rows])
 
 
 @lru_cache(maxsize=64)
-def _within(shape: DogBone) -> FloatArray:
+def _outline_points(shape: DogBone) -> FloatArray:
     """Points covering an outline [m], shape (n, 2)."""
     wide = shape.half_length if shape.arms > 2 else shape.radius
     xs, ys = (
@@ -74,8 +74,8 @@ def _within(shape: DogBone) -> FloatArray:
 
 def base_points(pedestal: Pedestal) -> FloatArray:
     """Points covering a pedestal's underside in B [m], shape (n, 2)."""
-    half, place = pedestal.width / 2.0, pedestal.placement
-    ends = (-half, half), (-pedestal.flange, pedestal.length + pedestal.flange)
+    half_width, place = pedestal.width / 2.0, pedestal.placement
+    ends = (-half_width, half_width), (-pedestal.flange, pedestal.length + pedestal.flange)
     grid = [np.linspace(low, high, 2 + int((high - low) / 1e-3)) for low, high in ends]
     points = np.stack(np.meshgrid(*grid), axis=-1).reshape(-1, 2)
     return points @ place.rotation[:2, :2].T + place.position[:2]
@@ -90,18 +90,18 @@ class FootContact:
         on: what it stands on, such as "trunk".
         share: fraction of its underside that is in contact; None: unknown.
         gap: largest gap under its screws' lands [m]; inf: nothing is there; None: unknown.
-        proud: height of the surface above its underside [m]; 0: no interference.
+        interference: height of the surface above its underside [m]; 0: no interference.
         held: whether all its screws' lands are in contact without interference; None: unknown.
-        leans: whether the module is tilted and has no support.
+        tilted: whether the module is tilted and has no support.
     """
 
     name: str
     on: str
     share: float | None
     gap: float | None
-    proud: float
+    interference: float
     held: bool | None
-    leans: bool = False
+    tilted: bool = False
 
 
 def under_pedestal(
@@ -112,13 +112,13 @@ def under_pedestal(
     lands = [disc_points(hole, AROUND_SLOT) for hole in pedestal.in_base(pedestal.holes)]
     points = base_points(pedestal), np.concatenate(lands)
     name = part_name("pedestal", module.name)
-    found = _contact(name, surface, points, pedestal.position[2])
+    contact = _contact(name, surface, points, pedestal.position[2])
     wheel = place.point(pedestal.wheel)
     seated = (
         bool(np.allclose(wheel, module.position, rtol=0.0, atol=1e-6))
         and pedestal.middle >= pedestal_of(device, module).middle - 1e-6
     )
-    return replace(found, held=found.held and seated)
+    return replace(contact, held=contact.held and seated)
 
 
 def contact_of(
@@ -150,8 +150,8 @@ def _contact(
     """
     if surface is None:
         return FootContact(name, "trunk", None, None, 0.0, held=None)
-    depth, under = (plane - heights_at(surface, each) for each in points)
-    share = float(((depth <= FLATNESS) & (depth >= -PROUD)).mean())
-    gap, proud = max(0.0, float(under.max())), max(0.0, -float(depth.min()))
-    held = gap <= FLATNESS and proud <= PROUD
-    return FootContact(name, "trunk", share, gap, proud, held)
+    depth, under = (plane - heights_at(surface, part) for part in points)
+    share = float(((depth <= FLATNESS) & (depth >= -INTERFERENCE_MAX)).mean())
+    gap, interference = max(0.0, float(under.max())), max(0.0, -float(depth.min()))
+    held = gap <= FLATNESS and interference <= INTERFERENCE_MAX
+    return FootContact(name, "trunk", share, gap, interference, held)

@@ -21,17 +21,17 @@ from ocs_design.robot.mass import MassProperties, combine
 from ocs_design.robot.robot import Robot
 from ocs_design.sizing.place import SPACING, Place, Size, module_size, wheel_size
 
-Found = TypeVar("Found")
+Result = TypeVar("Result")
 
 SENSES = (1.0, -1.0)
 
-SAME = 1e-9
+SAME_PLACE = 1e-9
 """Distance between places that are equal except for rounding [m]."""
 
-_ALIKE = 1.02
+_SIZE_RATIO = 1.02
 """Ratio of sizes, or of masses, of modules that count as nearly equal."""
 
-_FIGURES = "radius", "slot_radius", "reach", "height", "mass"
+_SIZE_FIELDS = "radius", "slot_radius", "reach", "height", "mass"
 """Fields of feet whose increase makes modules harder to hold."""
 
 
@@ -67,7 +67,7 @@ class Feet:
         return Size(self.reach, self.height)
 
     @property
-    def middles(self) -> list[Point]:
+    def centers(self) -> list[Point]:
         """Centres of the bases in B [m]."""
         return [(self.x + along, across) for along, across in self.bases]
 
@@ -90,7 +90,7 @@ class Feet:
         if self.arms > 2:
             return (0.0,)
         pairs = list(zip(self.bases[::2], self.bases[1::2], strict=False))
-        mirrored = all(np.allclose(right, (x, -y), atol=SAME) for (x, y), right in pairs)
+        mirrored = all(np.allclose(right, (x, -y), atol=SAME_PLACE) for (x, y), right in pairs)
         in_pairs = 2 * len(pairs) == len(self.bases) == len(self.slopes) and mirrored
         return tuple(x for (x, _), _ in pairs) if in_pairs else ()
 
@@ -99,7 +99,7 @@ class Feet:
         """Number of feet on each plate: all where they are evenly spaced on a circle, else two."""
         count = len(self.bases)
         upright = count > 2 and len(self.slopes) == count
-        ring = upright and np.allclose(self.y * directions(count), self.bases, atol=SAME)
+        ring = upright and np.allclose(self.y * directions(count), self.bases, atol=SAME_PLACE)
         return count if ring else len(SENSES)
 
     @property
@@ -127,10 +127,10 @@ class Footing:
     plate: CarrierPlate | None
     pedestals: tuple[Pedestal, ...] = ()
 
-    def carried(self, robot: MassProperties) -> MassProperties:
+    def added_to(self, robot: MassProperties) -> MassProperties:
         """The robot with plate and pedestals, later replaced by the chosen device's own."""
         under = [*(() if self.plate is None else (self.plate,)), *self.pedestals]
-        return combine([robot, *(each.mass_properties() for each in under)]) if under else robot
+        return combine([robot, *(body.mass_properties() for body in under)]) if under else robot
 
 
 def device_size(device: Device) -> Size[float]:
@@ -156,7 +156,7 @@ def feet_of(device: Device) -> Feet:
     mass = device.flywheel.mass + device.carrier.mass
     size = device_size(device)
     slopes = slopes_of(np.stack([module.axis for module in device.modules], axis=1))
-    base = foot.base_radius, foot.slot_radius, size.reach, size.standing
+    base = foot.base_radius, foot.slot_radius, size.reach, size.wheel_height
     return Feet(x, bases, slopes, *base, mass)
 
 
@@ -172,7 +172,7 @@ def slopes_of(axes: FloatArray) -> tuple[float, ...]:
     return tuple(copysign(1.0, x * y) for x, y in axes[:2].T.tolist())
 
 
-def leans(module: Module) -> bool:
+def is_tilted(module: Module) -> bool:
     """Whether a module's foot is tilted."""
     return float(module.frame[2, 2]) < 1.0 - OUT_OF_REACH
 
@@ -190,32 +190,33 @@ class FailedSearches:
 
     feet: dict[tuple[object, ...], list[Feet]] = field(default_factory=dict)
 
-    def found(
+    def run(
         self,
-        search: Callable[..., Found | None],
+        search: Callable[..., Result | None],
         robot: Robot,
         feet: Feet,
         layout: Layout,
         *options: bool,
-        to: Callable[[float], int] = ceil,
-    ) -> Found | None:
+        rounding: Callable[[float], int] = ceil,
+    ) -> Result | None:
         """Result of a search for modules of nearly this size, at any position.
 
-        Sizes and mass are rounded up by at most 2 % (`to`), or down (`floor`), so that nearly equal
-        modules share one search.
+        Sizes and mass are rounded up by at most 2 % (`rounding`), or down (`floor`), so that nearly
+        equal modules share one search.
         """
         figures: dict[str, Any] = {
-            name: _ALIKE ** to(log(getattr(feet, name), _ALIKE)) for name in _FIGURES
+            name: _SIZE_RATIO ** rounding(log(getattr(feet, name), _SIZE_RATIO))
+            for name in _SIZE_FIELDS
         }
-        asked = replace(feet, x=0.0, bases=(), **figures)
+        rounded = replace(feet, x=0.0, bases=(), **figures)
         failed = self.feet.setdefault((layout, search.__name__, *options), [])
         if any(
-            asked.slopes == other.slopes
-            and all(getattr(other, name) <= getattr(asked, name) for name in _FIGURES)
+            rounded.slopes == other.slopes
+            and all(getattr(other, name) <= getattr(rounded, name) for name in _SIZE_FIELDS)
             for other in failed
         ):
             return None
-        found = search(robot, asked, layout, *options)
-        if found is None:
-            failed.append(asked)
-        return found
+        result = search(robot, rounded, layout, *options)
+        if result is None:
+            failed.append(rounded)
+        return result

@@ -27,16 +27,16 @@ DEPTH_MAX = 0.025
 """Largest difference of a formed block's thickness [m]: three diameters of M8, and the reach of a
 standard 10 mm ball cutter."""
 
-BED = 0.1e-3
+CLEARANCE = 0.1e-3
 """Gap between block and trunk, so that it nowhere interferes [m]."""
 
 STEP = 2e-3
 """Largest distance between grid points of its front [m]."""
 
-LEAST = 6e-3
+THICKNESS_MIN = 6e-3
 """Least thickness of a formed block [m]: enough to weld it to a tube's wall of 5 mm."""
 
-_FINE = 4
+_SAMPLES_PER_CELL = 4
 """Sampling points of the trunk along each side of a cell."""
 
 _DIGITS = 5
@@ -52,33 +52,37 @@ def front_of(back: HeightMap, half: float, low: float, high: float) -> FloatArra
     Args:
         back: of the trunk. half: of the block's width [m]. low, high: its ends in B [m].
     """
-    cells = [int(np.ceil(long / STEP)) for long in (2.0 * half, high - low)]
+    cells = [int(np.ceil(length / STEP)) for length in (2.0 * half, high - low)]
     left, up = (
-        np.linspace(start, end, _FINE * count + 1)
+        np.linspace(start, end, _SAMPLES_PER_CELL * count + 1)
         for start, end, count in zip((-half, low), (half, high), cells, strict=True)
     )
     trunk = back.between(up, left[:, None])
     if not np.isfinite(trunk).all():
         return None
-    corners = trunk[::_FINE, ::_FINE]
+    corners = trunk[::_SAMPLES_PER_CELL, ::_SAMPLES_PER_CELL]
     # Between grid points a bulging trunk is higher: they move back by the most of adjacent cells.
-    over = trunk - _between(corners, half, (low, high), left, up)
-    highest = maximum_filter(over, 2 * _FINE + 1, mode="constant")[::_FINE, ::_FINE]
-    front = corners + np.maximum(highest, 0.0) + BED
-    off = _between(front, half, (low, high), left, up) - trunk
-    if off.max() > TOUCH or np.ptp(front) > DEPTH_MAX:
+    bulge = trunk - _interpolated(corners, half, (low, high), left, up)
+    highest = maximum_filter(bulge, 2 * _SAMPLES_PER_CELL + 1, mode="constant")[
+        ::_SAMPLES_PER_CELL, ::_SAMPLES_PER_CELL
+    ]
+    front = corners + np.maximum(highest, 0.0) + CLEARANCE
+    gap = _interpolated(front, half, (low, high), left, up) - trunk
+    if gap.max() > TOUCH or np.ptp(front) > DEPTH_MAX:
         return None
     return frozen(front)
 
 
-def _between(
+def _interpolated(
     corners: FloatArray, half: float, ends: tuple[float, float], left: FloatArray, up: FloatArray
 ) -> FloatArray:
     """A front interpolated between its grid points."""
     return Relief(-half, half, *ends, corners).height(left[:, None], up)
 
 
-def thicknesses(front: FloatArray, spacer: float) -> tuple[float, tuple[tuple[float, ...], ...]]:
+def block_thicknesses(
+    front: FloatArray, spacer: float
+) -> tuple[float, tuple[tuple[float, ...], ...]]:
     """Plane where a flat block of that thickness starts, and thicknesses of the formed one [m].
 
     Args:
@@ -90,13 +94,14 @@ def thicknesses(front: FloatArray, spacer: float) -> tuple[float, tuple[tuple[fl
     return plane, tuple(map(tuple, rows))
 
 
-def off_trunk(back: HeightMap, plate: CarrierPlate) -> FloatArray | None:
+def distance_from_trunk(back: HeightMap, plate: CarrierPlate) -> FloatArray | None:
     """Distances of a plate's formed block from the trunk all over its front [m]; None: no block."""
     relief, mast, (x, y, z) = plate.relief, plate.mast, plate.position
     if relief is None or mast is None:
         return None
     left, up = (
-        np.linspace(each[0], each[-1], _FINE * (len(each) - 1) + 1) for each in (relief.x, relief.y)
+        np.linspace(grid[0], grid[-1], _SAMPLES_PER_CELL * (len(grid) - 1) + 1)
+        for grid in (relief.x, relief.y)
     )
     face = -(x + mast.face + relief.height(left[:, None], up))
     return np.asarray(face - back.between(z + up, y + left[:, None]))

@@ -30,20 +30,20 @@ from ocs_design.parts.plate_strength import arm_stress, mast_screws_use, mast_st
 from ocs_design.parts.printed import SHOCK
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.surface import HeightMap, trunk_back
-from ocs_design.sizing.footing.contact import FLATNESS, PROUD, disc_points
+from ocs_design.sizing.footing.contact import FLATNESS, INTERFERENCE_MAX, disc_points
 from ocs_design.sizing.footing.feet import SENSES, FailedSearches, Feet, Footing
 from ocs_design.sizing.footing.formed import (
     DEPTH_MAX,
-    LEAST,
+    THICKNESS_MIN,
     TILT_MAX,
+    block_thicknesses,
     front_of,
-    thicknesses,
 )
 from ocs_design.sizing.footing.plate import (
     HEAD_TO_FOOT,
+    NECK_INCREMENTS,
     PATTERN_STEP,
     SPREAD,
-    WIDER,
     blank_plate,
     thick_enough,
 )
@@ -55,7 +55,7 @@ MAST_SCREWS = tuple(map(screw, ("M4", "M5", "M6", "M8")))
 SPACERS = (0.0, 0.02, 0.04, 0.06, 0.08)
 """Thicknesses of blocks between a mast and the trunk to try, where a limb is in the way [m]."""
 
-FORMED_SPACERS = (LEAST, *SPACERS[1:])
+FORMED_SPACERS = (THICKNESS_MIN, *SPACERS[1:])
 """Least thicknesses of formed blocks to try [m]."""
 
 SPREAD_MAX = 0.15
@@ -70,8 +70,8 @@ _PATTERNS = 8
 
 
 @dataclass(frozen=True)
-class _Spot:
-    """Place of a mast on the trunk's back.
+class _MastPlace:
+    """Place of a mast behind the trunk.
 
     Attributes:
         far: whether its arms are long. height: of its lowest plate in B [m].
@@ -98,15 +98,15 @@ def footing_behind(
     back = trunk_back(robot)
     if back is None:
         return None
-    spot = failed.found(_mast_spot, robot, feet, layout, False)
+    spot = failed.run(_mast_place, robot, feet, layout, False)
     if spot is None and formed:
-        spot = failed.found(_mast_spot, robot, feet, layout, True)
+        spot = failed.run(_mast_place, robot, feet, layout, True)
     if spot is None:
         return None
     feet = _stacked(feet, layout)
-    search, arms = Search.of(robot, feet.size, layout), _all_arms(feet, far=spot.far)
-    masted = (_masted(back, feet, plate, search, spot) for plate in arms)
-    return next((footing for footing in masted if footing is not None), None)
+    search, arms = Search.of(robot, feet.size, layout), _arm_plates(feet, far=spot.far)
+    footings = (_footing_on_mast(back, feet, plate, search, spot) for plate in arms)
+    return next((footing for footing in footings if footing is not None), None)
 
 
 @dataclass(frozen=True)
@@ -116,14 +116,14 @@ class Pads:
     Attributes:
         screw: its name. diameter: of each spot [m].
         aside, up: their lateral distance and least vertical distance [m].
-        there: whether the trunk's back has them, so that only room behind it is lacking.
+        exist: whether the trunk's back has them, so that only room behind it is lacking.
     """
 
     screw: str
     diameter: float
     aside: float
     up: float
-    there: bool
+    exist: bool
 
 
 def pads_needed(robot: Robot, feet: Feet, layout: Layout) -> Pads | None:
@@ -133,19 +133,21 @@ def pads_needed(robot: Robot, feet: Feet, layout: Layout) -> Pads | None:
         return None
     feet, force = _stacked(feet, layout), 2.0 * feet.mass * SHOCK * layout.pairs
     half = np.arange(SPREAD, SPREAD_MAX, PATTERN_STEP) / 2.0
-    for plate, held in product(_all_arms(feet, far=False), MAST_SCREWS):
-        own = replace(plate, thread=held.name)
-        assert own.mast is not None, "a plate on arms"
-        aside = own.mast.bore / 2.0 - own.sleeve_radius
-        if aside < held.head_diameter / 2.0 + HEAD_TO_FOOT:
+    for plate, mast_screw in product(_arm_plates(feet, far=False), MAST_SCREWS):
+        screwed_plate = replace(plate, thread=mast_screw.name)
+        assert screwed_plate.mast is not None, "a plate on arms"
+        aside = screwed_plate.mast.bore / 2.0 - screwed_plate.sleeve_radius
+        if aside < mast_screw.head_diameter / 2.0 + HEAD_TO_FOOT:
             continue
-        arms = own.mast.face, np.zeros(len(half))
-        bearing = half[pattern_use(held, force, arms, (half, np.full(len(half), aside))) <= 1.0]
+        arms = screwed_plate.mast.face, np.zeros(len(half))
+        bearing = half[
+            pattern_use(mast_screw, force, arms, (half, np.full(len(half), aside))) <= 1.0
+        ]
         if len(bearing):
-            least, radius = float(bearing.min()), own.sleeve_radius
+            least, radius = float(bearing.min()), screwed_plate.sleeve_radius
             pairs = _pairs(back, radius, aside, aside + PATTERN_STEP / 2.0)
-            there = pairs is not None and bool((np.diff(pairs.z) / 2.0 >= least).any())
-            return Pads(held.name, 2.0 * radius, 2.0 * aside, 2.0 * least, there)
+            exist = pairs is not None and bool((np.diff(pairs.z) / 2.0 >= least).any())
+            return Pads(mast_screw.name, 2.0 * radius, 2.0 * aside, 2.0 * least, exist)
     return None
 
 
@@ -156,7 +158,7 @@ def _stacked(feet: Feet, layout: Layout) -> Feet:
 
 
 @lru_cache(maxsize=64)
-def _mast_spot(robot: Robot, feet: Feet, layout: Layout, is_formed: bool) -> _Spot | None:
+def _mast_place(robot: Robot, feet: Feet, layout: Layout, is_formed: bool) -> _MastPlace | None:
     """Place of a mast whose modules no limb reaches while the legs give way; None: there is none.
 
     With a block shaped to the trunk (`is_formed`) or without.
@@ -168,20 +170,20 @@ def _mast_spot(robot: Robot, feet: Feet, layout: Layout, is_formed: bool) -> _Sp
     search = Search.of(robot, size, layout, on_feet=is_formed)
     feet = _stacked(feet, layout)
     down, up = back.x_range
-    arms = {far: list(_all_arms(feet, far=far)) for far in (False, True)}
+    arms = {far: list(_arm_plates(feet, far=far)) for far in (False, True)}
     if not all(arms.values()):
         return None
     face = back.farthest(down, up, arms[False][0].support)
 
     def spots(step: float) -> list[tuple[Place, bool, float, float]]:
-        heights = np.arange(down - 2.0 * size.standing, up + size.standing, step).tolist()
+        heights = np.arange(down - 2.0 * size.wheel_height, up + size.wheel_height, step).tolist()
         spacers = FORMED_SPACERS if is_formed else SPACERS
         found = [
-            (_placed(back, plates[0], size, height, face + spacer), far, height, spacer)
+            (_place_behind(back, plates[0], size, height, face + spacer), far, height, spacer)
             for (far, plates), height, spacer in product(arms.items(), heights, spacers)
         ]
         # A thicker block is heavier than a longer upright.
-        return sorted(found, key=lambda each: (each[3], search.cost(each[0])))
+        return sorted(found, key=lambda each: (each[3], search.added_inertia(each[0])))
 
     each_step = (spots(share * size.reach) for share in _STEPS)
     for place, far, height, spacer in chain.from_iterable(each_step):
@@ -195,10 +197,12 @@ def _mast_spot(robot: Robot, feet: Feet, layout: Layout, is_formed: bool) -> _Sp
         tubes = mast_solids(
             replace(plate, position=(x, 0.0, height), levels=tuple(levels), mast=upright)
         )
-        if not (search.is_off(tubes) and search.is_free(place)) or any(map(search.touches, tubes)):
+        if not (search.clears_limbs(tubes) and search.is_free(place)) or any(
+            map(search.touches, tubes)
+        ):
             continue
-        spot = _Spot(far, height, spacer, is_formed)
-        masted = (_masted(back, feet, plate, search, spot) for plate in arms[far])
+        spot = _MastPlace(far, height, spacer, is_formed)
+        masted = (_footing_on_mast(back, feet, plate, search, spot) for plate in arms[far])
         for footing in (each for each in masted if each is not None):
             # A wider tube moves modules by less than the clearance around them.
             if not search.is_free(footing.place):
@@ -210,17 +214,18 @@ def _mast_spot(robot: Robot, feet: Feet, layout: Layout, is_formed: bool) -> _Sp
     return None
 
 
-def _all_arms(feet: Feet, *, far: bool) -> Iterator[CarrierPlate]:
+def _arm_plates(feet: Feet, *, far: bool) -> Iterator[CarrierPlate]:
     """Plates on arms, short or long (`far`), for each tube in stock that is strong enough.
 
     On short arms, pairs stand on both sides of the upright; on long ones behind it.
     """
     ring = feet.slot_radius + SLOT_EDGE
     for side, wall in TUBES:
-        back = side + max(_between(side, feet.reach), side, feet.y * far)
+        back = side + max(_clear_distance(side, feet.reach), side, feet.y * far)
         mast = Mast(side, wall, back, 0.0, 0.0, 0.0)
         blanks = (
-            replace(blank_plate(feet, ring, side / 2.0 + wider), mast=mast) for wider in WIDER
+            replace(blank_plate(feet, ring, side / 2.0 + wider), mast=mast)
+            for wider in NECK_INCREMENTS
         )
         # Thicker plates stand higher, which bends the arms more.
         bearing = (
@@ -235,7 +240,7 @@ def _all_arms(feet: Feet, *, far: bool) -> Iterator[CarrierPlate]:
             yield lightest
 
 
-def _placed(
+def _place_behind(
     back: HeightMap, plate: CarrierPlate, size: Size[float], height: float, face: float
 ) -> Place:
     """Place of pairs behind the trunk, clear of it and of a mast's upright.
@@ -247,10 +252,15 @@ def _placed(
     mast, out = plate.mast, SPACING * size.reach
     assert mast is not None, "a plate on arms"
     # Arms reach down between the modules below, which stand on both sides of the upright.
-    room = max(0.0, sqrt(2.0) * mast.side - out + _between(mast.side, size.reach)) + plate.thickness
-    apart = size.standing / size.reach + SPACING
+    room = (
+        max(0.0, sqrt(2.0) * mast.side - out + _clear_distance(mast.side, size.reach))
+        + plate.thickness
+    )
+    apart = size.wheel_height / size.reach + SPACING
     rows = range(len(plate.rows))
-    top = height + rows[-1] * (room + apart * size.reach) + plate.thickness + size.standing + out
+    top = (
+        height + rows[-1] * (room + apart * size.reach) + plate.thickness + size.wheel_height + out
+    )
     behind = max(back.farthest(height, top, 2.0 * out), face + mast.face - out)
     x = -round(behind, 6)
     origins = [(x, 0.0, height + plate.thickness + row * room) for row in rows]
@@ -262,7 +272,7 @@ def _placed(
     )
 
 
-def _between(side: float, reach: float) -> float:
+def _clear_distance(side: float, reach: float) -> float:
     """Distance from a tube at which modules on both its sides clear it [m].
 
     Its width counts across the corners.
@@ -271,27 +281,29 @@ def _between(side: float, reach: float) -> float:
     return sqrt(max(0.0, reach**2 - aside**2))
 
 
-def _masted(
+def _footing_on_mast(
     back: HeightMap,
     feet: Feet,
     plate: CarrierPlate,
     search: Search,
-    spot: _Spot,
+    spot: _MastPlace,
 ) -> Footing | None:
     """Pairs on a mast behind the trunk; None: the mast cannot hold them there.
 
     Args:
-        back, plate: see `_placed`. feet: of all modules. search: of the largest, and of limbs.
+        back, plate: see `_place_behind`. feet: of all modules. search: of the largest, and of
+            limbs.
         spot: where it stands.
     """
     mast, height, spacer = plate.mast, spot.height, spot.spacer
     assert mast is not None, "a plate on arms"
     half, best, size = mast.side / 2.0, None, search.sizes.largest
-    centers = _placed(back, plate, size, height, 0.0).centers(size)[:: len(SENSES)]
+    centers = _place_behind(back, plate, size, height, 0.0).centers(size)[:: len(SENSES)]
     levels = tuple((centers[:, 2] - centers[0, 2]).tolist())
     # Where the strongest screws do not hold, no others do; but they need the widest tube.
-    for held in reversed(MAST_SCREWS):
-        edge, blank, before = EDGE * held.clearance_hole, replace(plate, thread=held.name), best
+    for mast_screw in reversed(MAST_SCREWS):
+        edge, previous = EDGE * mast_screw.clearance_hole, best
+        blank = replace(plate, thread=mast_screw.name)
         for low, high, aside, pads in _patterns(back, feet, blank, spot, centers):
             bottom, top = min(low - edge, height - mast.side), max(high + edge, height + levels[-1])
             if bottom < spot.lowest:
@@ -300,14 +312,14 @@ def _masted(
             plane = round(back.farthest(low - edge, high + edge, half), 6)
             front: tuple[tuple[float, ...], ...] = ()
             if spot.formed:
-                its = front_of(back, half, round(low - edge, 9), round(high + edge, 9))
-                if its is None:
+                formed_front = front_of(back, half, round(low - edge, 9), round(high + edge, 9))
+                if formed_front is None:
                     continue
-                plane, front = thicknesses(its, spacer)
+                plane, front = block_thicknesses(formed_front, spacer)
             face = plane + spacer
-            if face < back.farthest(bottom, top, half) - PROUD:
+            if face < back.farthest(bottom, top, half) - INTERFERENCE_MAX:
                 continue
-            place = _placed(back, blank, size, height, face)
+            place = _place_behind(back, blank, size, height, face)
             x = float(place.centers(size)[0, 0])
             holes = [(y, z - height) for z in (low, high) for y in (aside, -aside)]
             gaps = [
@@ -315,7 +327,7 @@ def _masted(
                 for deep, top in pads
             ]
             arms = [height + level - half for level in levels]
-            own = replace(
+            mast_there = replace(
                 mast,
                 face=-face - x,
                 below=height - bottom,
@@ -324,29 +336,29 @@ def _masted(
                 spacer=spacer,
                 formed=front,
             )
-            masted = replace(
+            plate_on_mast = replace(
                 blank,
                 position=(x, 0.0, height),
                 levels=levels,
                 trunk=tuple(holes),
                 sleeves=tuple(gap for gap in gaps for _ in SENSES),
-                mast=own,
+                mast=mast_there,
             )
             if (
-                steepest(masted) <= TILT_MAX
-                and mast_stress(masted, feet.mass, feet.height) <= MAST_YIELD
-                and mast_screws_use(masted, feet.mass, feet.height) <= 1.0
-                and search.is_off(plate_solids(masted))
+                steepest(plate_on_mast) <= TILT_MAX
+                and mast_stress(plate_on_mast, feet.mass, feet.height) <= MAST_YIELD
+                and mast_screws_use(plate_on_mast, feet.mass, feet.height) <= 1.0
+                and search.clears_limbs(plate_solids(plate_on_mast))
             ):
-                best = Footing(place, masted)
+                best = Footing(place, plate_on_mast)
                 break
-        if best is before and best is not None:
+        if best is previous and best is not None:
             break
     return best
 
 
 def _patterns(
-    back: HeightMap, feet: Feet, plate: CarrierPlate, spot: _Spot, centers: FloatArray
+    back: HeightMap, feet: Feet, plate: CarrierPlate, spot: _MastPlace, centers: FloatArray
 ) -> list[tuple[float, float, float, tuple[Point, Point]]]:
     """Patterns of four screws that fit the trunk's back and are strong enough, shortest mast first.
 
@@ -357,9 +369,9 @@ def _patterns(
         back: of the trunk. feet: of all modules. plate: on arms.
         spot: where it stands. centers: of the wheels [m], a row each.
     """
-    mast, held, height = plate.mast, plate.screw, spot.height
+    mast, mast_screw, height = plate.mast, plate.screw, spot.height
     assert mast is not None, "a plate on arms"
-    least = held.head_diameter / 2.0 + HEAD_TO_FOOT
+    least = mast_screw.head_diameter / 2.0 + HEAD_TO_FOOT
     most = mast.bore / 2.0 - plate.sleeve_radius
     pairs = _pairs(back, plate.sleeve_radius, least, most, is_formed=spot.formed)
     if pairs is None:
@@ -367,10 +379,10 @@ def _patterns(
     low, high = pairs.z.T
     force = 2.0 * feet.mass * SHOCK * len(centers)
     up = np.abs(float(centers[:, 2].mean()) - (low + high) / 2.0)
-    half, downhill = ((high - low) / 2.0, pairs.aside), held.preload * pairs.slope
-    used = pattern_use(held, force, (mast.face + spot.spacer, up), half, downhill)
-    bearing = np.flatnonzero(used <= 1.0)
-    longer = np.maximum(0.0, height - low) + np.maximum(0.0, high - centers[-1, 2]) + 1e-3 * used
+    half, downhill = ((high - low) / 2.0, pairs.aside), mast_screw.preload * pairs.slope
+    use = pattern_use(mast_screw, force, (mast.face + spot.spacer, up), half, downhill)
+    bearing = np.flatnonzero(use <= 1.0)
+    longer = np.maximum(0.0, height - low) + np.maximum(0.0, high - centers[-1, 2]) + 1e-3 * use
     order = bearing[np.argsort(longer[bearing], kind="stable")[:_PATTERNS]]
     return [
         (z[0], z[1], aside, ((deep[0], far[0]), (deep[1], far[1])))
@@ -413,24 +425,26 @@ def _pairs(
         is_formed: whether a block is shaped to the trunk there, which may then be steep.
     """
     down, up = back.x_range
-    every, around = np.arange(down, up, PATTERN_STEP), disc_points((0.0, 0.0), radius)
+    heights, around = np.arange(down, up, PATTERN_STEP), disc_points((0.0, 0.0), radius)
     # On slopes the height map is off by its step; they are checked again later.
     steep = 2.0 * (radius + back.step) * tan(TILT_MAX)
-    found = []
+    rows = []
     for aside in np.arange(least, most, PATTERN_STEP).tolist():
         lands = np.concatenate([disc_points((0.0, side * aside), radius) for side in SENSES])
-        behind = back.height(every[:, None] + lands[:, 0], lands[None, :, 1] + 0.0 * every[:, None])
+        behind = back.height(
+            heights[:, None] + lands[:, 0], lands[None, :, 1] + 0.0 * heights[:, None]
+        )
         top, low = behind.max(axis=1), behind.min(axis=1)
         with np.errstate(invalid="ignore"):
             flat = top - low <= (steep if is_formed else FLATNESS)
             # Slope upwards and to the left, averaged over both sides.
             slope = behind @ np.tile(around, (len(SENSES), 1)) / (around**2).sum(axis=0)
-        z, low, top, slope = every[flat], low[flat], top[flat], slope[flat] / len(SENSES)
-        both = np.stack(np.triu_indices(len(z), 1), axis=1)
-        half = np.diff(z[both], axis=1)[:, 0] / 2.0
-        near = (half >= SPREAD / 2.0) & (half <= SPREAD_MAX / 2.0)
-        near &= np.ptp(top[both], axis=1) <= (DEPTH_MAX if is_formed else SLEEVE_MAX)
-        both = both[near]
-        steepness = is_formed * np.linalg.norm(slope[both].sum(axis=1), axis=1) / 2.0
-        found.append((np.full(len(both), aside), z[both], low[both], top[both], steepness))
-    return _Pairs(*map(frozen, map(np.concatenate, zip(*found, strict=True)))) if found else None
+        z, low, top, slope = heights[flat], low[flat], top[flat], slope[flat] / len(SENSES)
+        pairs = np.stack(np.triu_indices(len(z), 1), axis=1)
+        half = np.diff(z[pairs], axis=1)[:, 0] / 2.0
+        allowed = (half >= SPREAD / 2.0) & (half <= SPREAD_MAX / 2.0)
+        allowed &= np.ptp(top[pairs], axis=1) <= (DEPTH_MAX if is_formed else SLEEVE_MAX)
+        pairs = pairs[allowed]
+        steepness = is_formed * np.linalg.norm(slope[pairs].sum(axis=1), axis=1) / 2.0
+        rows.append((np.full(len(pairs), aside), z[pairs], low[pairs], top[pairs], steepness))
+    return _Pairs(*map(frozen, map(np.concatenate, zip(*rows, strict=True)))) if rows else None

@@ -28,23 +28,23 @@ from ocs_design.sizing.footing.feet import (
     Feet,
     Footing,
     device_size,
-    leans,
+    is_tilted,
     ring_of,
 )
-from ocs_design.sizing.footing.plate import PLATE_SCREW, POST_SCREW, STRONG_SCREW, held_at
+from ocs_design.sizing.footing.plate import PLATE_SCREW, POST_SCREW, STRONG_SCREW, support_at
 from ocs_design.sizing.free_place import Search, place_on_top
-from ocs_design.sizing.place import around, place_at
+from ocs_design.sizing.place import place_around, place_at
 
-ASIDE = (0.04, 0.08)
+LATERAL_OFFSETS = (0.04, 0.08)
 """Extra distances to both sides to try for pairs, where a limb lies over the trunk's middle [m]."""
 
 STEP = 4e-3
 """Step between places along the trunk [m], or a sixteenth of a module's reach."""
 
-SPARE = 1e-3
+EXCESS_HEIGHT = 1e-3
 """Excess height of a pedestal that is tolerated [m], so that places converge."""
 
-_ENDLESS = 1e3
+_ENDLESS_STEP = 1e3
 """Grid step of a surface of one point [m]."""
 
 
@@ -53,16 +53,16 @@ def footing_on_top(
 ) -> Footing | None:
     """The nearest place that holds the feet, as close together as possible; pairs also apart."""
     robot, layout = search.collision.robot, search.layout
-    if failed.found(_as_usual, robot, feet, layout, to=floor):
-        found = _nearest_footing(surface, feet, search, 0.0, PLATE_SCREW)
-        if found is not None:
-            return found
-    way = failed.found(_way, robot, feet, layout)
-    return None if way is None else _nearest_footing(surface, feet, search, *way)
+    if failed.run(_with_usual_screws, robot, feet, layout, rounding=floor):
+        footing = _nearest_footing(surface, feet, search, 0.0, PLATE_SCREW)
+        if footing is not None:
+            return footing
+    arrangement = failed.run(_arrangement, robot, feet, layout)
+    return None if arrangement is None else _nearest_footing(surface, feet, search, *arrangement)
 
 
 @lru_cache(maxsize=64)
-def _as_usual(robot: Robot, feet: Feet, layout: Layout) -> Footing | None:
+def _with_usual_screws(robot: Robot, feet: Feet, layout: Layout) -> Footing | None:
     """The nearest place of feet as close together as possible, with the usual screws."""
     surface, search = trunk_surface(robot), Search.of(robot, feet.size, layout)
     if surface is None:
@@ -71,19 +71,26 @@ def _as_usual(robot: Robot, feet: Feet, layout: Layout) -> Footing | None:
 
 
 @lru_cache(maxsize=64)
-def _way(robot: Robot, feet: Feet, layout: Layout) -> tuple[float, Screw] | None:
+def _arrangement(robot: Robot, feet: Feet, layout: Layout) -> tuple[float, Screw] | None:
     """Extra lateral distance of pairs and the screws of their plate; None: no footing is found.
 
     Tried in turn: stronger screws, farther apart, and on posts over what protrudes from the trunk.
     """
     surface, search = trunk_surface(robot), Search.of(robot, feet.size, layout)
     feet = _at_com(robot, feet, layout)
-    ways = [(0.0, STRONG_SCREW)]
+    arrangements = [(0.0, STRONG_SCREW)]
     if layout.pairs:
-        both = PLATE_SCREW, STRONG_SCREW
-        ways += [*((aside, each) for aside in ASIDE for each in both), (0.0, POST_SCREW)]
-    found = (way for way in ways if surface and _nearest_footing(surface, feet, search, *way))
-    return next(found, None)
+        screws = PLATE_SCREW, STRONG_SCREW
+        arrangements += [
+            *((lateral_offset, screw) for lateral_offset in LATERAL_OFFSETS for screw in screws),
+            (0.0, POST_SCREW),
+        ]
+    feasible = (
+        arrangement
+        for arrangement in arrangements
+        if surface and _nearest_footing(surface, feet, search, *arrangement)
+    )
+    return next(feasible, None)
 
 
 def _at_com(robot: Robot, feet: Feet, layout: Layout) -> Feet:
@@ -93,7 +100,7 @@ def _at_com(robot: Robot, feet: Feet, layout: Layout) -> Feet:
 
 
 def _nearest_footing(
-    surface: HeightMap, feet: Feet, search: Search, aside: float, held_by: Screw
+    surface: HeightMap, feet: Feet, search: Search, lateral_offset: float, plate_screw: Screw
 ) -> Footing | None:
     """The place nearest to that of the feet where they are held and no leg comes near.
 
@@ -101,21 +108,21 @@ def _nearest_footing(
 
     Args:
         surface: of the trunk. feet: on it, as close together as possible. search: of places.
-        aside: extra distance of each to its side [m]. held_by: screws of a plate.
+        lateral_offset: extra distance of each to its side [m]. plate_screw: screws of a plate.
     """
-    bases = tuple((x, y + copysign(aside, y)) for x, y in feet.bases)
+    bases = tuple((x, y + copysign(lateral_offset, y)) for x, y in feet.bases)
     feet = replace(feet, bases=bases)
     low, high = surface.x_range
     step = max(STEP, feet.reach / 16.0)
     steps = np.arange(np.ceil((low - feet.x) / step), (high - feet.x) / step)
-    waiting: list[tuple[float, Footing]] = []
+    candidates: list[tuple[float, Footing]] = []
     for shift in (*sorted((steps * step).tolist(), key=abs), np.inf):
         # No place farther away can have a lower cost than those waiting.
-        while waiting and waiting[0][0] <= abs(shift):
-            _, footing = waiting.pop(0)
+        while candidates and candidates[0][0] <= abs(shift):
+            _, footing = candidates.pop(0)
             # Modules that stand apart leave room for a limb between them; a plate does not.
-            posts = held_by is POST_SCREW
-            between = plate_solids(footing.plate) if aside or posts else ()
+            posts = plate_screw is POST_SCREW
+            between = plate_solids(footing.plate) if lateral_offset or posts else ()
             if search.is_free(footing.place) and not any(map(search.touches, between)):
                 return footing
         if shift == np.inf:
@@ -124,18 +131,18 @@ def _nearest_footing(
         if len(moved.rows) > 1:
             # A limb may be where modules of several pairs would stand directly on the trunk. A
             # plate, which takes long to search for, would lift them only by its thickness.
-            beneath = [disc_points(middle, moved.radius) for middle in moved.middles]
-            top = highest_of(surface, np.concatenate(beneath))
-            on_trunk = around((moved.x, 0.0, top), search.layout, aside)
-            if isfinite(top) and not search.is_clear(on_trunk):
+            under_feet = [disc_points(middle, moved.radius) for middle in moved.centers]
+            top = highest_of(surface, np.concatenate(under_feet))
+            on_trunk = place_around((moved.x, 0.0, top), search.layout, lateral_offset)
+            if isfinite(top) and not search.is_clear_at_rest(on_trunk):
                 continue
-        height, plate = held_at(surface, moved, held_by=(held_by,))
+        height, plate = support_at(surface, moved, screws=(plate_screw,))
         if isfinite(height):
             origin = round(feet.x + shift, 6) + 0.0, 0.0, height
             lift = 0.0 if plate is None else plate.thickness + max(plate.sleeves)
-            place = around(origin, search.layout, aside)
-            waiting.append((abs(shift) + lift, Footing(place, plate)))
-            waiting.sort(key=lambda each: each[0])
+            place = place_around(origin, search.layout, lateral_offset)
+            candidates.append((abs(shift) + lift, Footing(place, plate)))
+            candidates.sort(key=lambda candidate: candidate[0])
     return None
 
 
@@ -150,13 +157,13 @@ def footing_on_pedestals(
     layout, size = device.layout, device_size(device)
     if surface is None:
         _, _, top = place_on_top(robot, layout).origins[0]
-        surface = HeightMap(0.0, 0.0, _ENDLESS, np.array([[top]]))
-    if any(leans(module) and module.frame[2, 1] < -OUT_OF_REACH for module in device.modules):
+        surface = HeightMap(0.0, 0.0, _ENDLESS_STEP, np.array([[top]]))
+    if any(is_tilted(module) and module.frame[2, 1] < -OUT_OF_REACH for module in device.modules):
         return None
     if specified:
-        held = _all_held(surface, device, fixed=True)
+        supports = _supports(surface, device, fixed=True)
         place = place_at(tuple(np.ravel([each.position for each in device.modules])), layout)
-        return None if held is None else Footing(place, None, held[1])
+        return None if supports is None else Footing(place, None, supports[1])
     search = Search.of(robot, size, layout)
     ring, start = np.array(ring_of(layout, size.reach)), round(float(robot.com[0]), 6) + 0.0
     low, high = surface.x_range
@@ -167,21 +174,25 @@ def footing_on_pedestals(
             replace(module, position=frozen([x + along, across, float(module.position[2])]))
             for module, (along, across) in zip(device.modules, ring.tolist(), strict=True)
         )
-        held = _all_held(surface, replace(device, modules=modules), fixed=False)
-        if held is None:
+        supports = _supports(surface, replace(device, modules=modules), fixed=False)
+        if supports is None:
             continue
-        heights, pedestals = held
-        around_it = around((x, 0.0, 0.0), layout)
+        heights, pedestals = supports
+        ring_place = place_around((x, 0.0, 0.0), layout)
         # Not rounded, so that a pedestal's seat coincides with its foot.
-        origins = tuple((x, 0.0, height - size.standing) for height in heights)
-        place = replace(around_it, origins=origins)
+        origins = tuple((x, 0.0, height - size.wheel_height) for height in heights)
+        place = replace(ring_place, origins=origins)
         solids = [solid for each in pedestals for solid in pedestal_solids(each)]
-        if search.is_off(solids) and search.is_free(place) and not any(map(search.touches, solids)):
+        if (
+            search.clears_limbs(solids)
+            and search.is_free(place)
+            and not any(map(search.touches, solids))
+        ):
             return Footing(place, None, pedestals)
     return None
 
 
-def _all_held(
+def _supports(
     surface: HeightMap, device: Device, *, fixed: bool
 ) -> tuple[list[float], tuple[Pedestal, ...]] | None:
     """Heights of the modules in B and the pedestals under them; None: the trunk does not hold all.
@@ -190,32 +201,34 @@ def _all_held(
         surface: of the trunk. device: with its modules above their intended places.
         fixed: whether their heights are fixed too.
     """
-    heights, found, foot = [], [], foot_of(device)
+    heights, pedestals, foot = [], [], foot_of(device)
     for module in device.modules:
-        own = float(module.position[2])
-        low = pedestal_of(device, module) if leans(module) else None
+        present_height = float(module.position[2])
+        lowest = pedestal_of(device, module) if is_tilted(module) else None
         middle = vector(module.position)[:2]
-        beneath = disc_points(middle, foot.base_radius) if low is None else base_points(low)
+        beneath = disc_points(middle, foot.base_radius) if lowest is None else base_points(lowest)
         plane = round(highest_of(surface, beneath), 6)
         if not isfinite(plane):
             return None
-        least = plane + (foot.wheel_height if low is None else float(low.wheel[2]))
-        if fixed and own < least - SPARE:
+        least_height = plane + (foot.wheel_height if lowest is None else float(lowest.wheel[2]))
+        if fixed and present_height < least_height - EXCESS_HEIGHT:
             # Specified too low for any support under it.
             return None
-        if low is None:
+        if lowest is None:
             lands = foot.slot_radius - AROUND_SLOT, foot.slot_radius + AROUND_SLOT
-            height = own if fixed else least
+            height = present_height if fixed else least_height
             under = height - foot.wheel_height
-            on = contact_of("", surface, middle, foot.base_radius, plane=under, lands=lands)
+            contact = contact_of("", surface, middle, foot.base_radius, plane=under, lands=lands)
         else:
             # The present height is kept where it fits, so that places converge.
-            within = least <= own <= least + SPARE
-            height = own if fixed or within else round(least + SPARE / 2.0, 5)
+            fits = least_height <= present_height <= least_height + EXCESS_HEIGHT
+            height = (
+                present_height if fixed or fits else round(least_height + EXCESS_HEIGHT / 2.0, 5)
+            )
             placed = replace(module, position=frozen([*module.position[:2], height]))
-            found.append(pedestal_of(device, placed, plane))
-            on = under_pedestal(surface, device, placed, found[-1])
-        if not on.held:
+            pedestals.append(pedestal_of(device, placed, plane))
+            contact = under_pedestal(surface, device, placed, pedestals[-1])
+        if not contact.held:
             return None
         heights.append(height)
-    return heights, tuple(found)
+    return heights, tuple(pedestals)

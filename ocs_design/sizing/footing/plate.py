@@ -31,7 +31,7 @@ from ocs_design.parts.plate_strength import plate_screws_use, plate_stresses
 from ocs_design.robot.surface import HeightMap
 from ocs_design.sizing.footing.contact import (
     FLATNESS,
-    PROUD,
+    INTERFERENCE_MAX,
     contact_of,
     disc_points,
     heights_at,
@@ -39,7 +39,7 @@ from ocs_design.sizing.footing.contact import (
     plate_points,
     ring_points,
 )
-from ocs_design.sizing.footing.feet import SAME, SENSES, Feet
+from ocs_design.sizing.footing.feet import SAME_PLACE, SENSES, Feet
 
 HEAD_TO_FOOT = 0.5e-3
 """Clearance between a screw's head and a foot's base [m]."""
@@ -59,10 +59,10 @@ PATTERN_STEP = 2e-3
 """Step between patterns of screws [m], or a fortieth of a module's reach."""
 
 
-_SOME = 8
+_POINTS_CHECKED_FIRST = 8
 """Number of points of each screw's land that are checked first."""
 
-_AT_ONCE = 16
+_PATTERNS_AT_ONCE = 16
 """Number of patterns whose lands are checked in full at once."""
 
 
@@ -75,7 +75,7 @@ class Patterns(Table):
             centre [m], shape (n,).
         shared: whether neighbouring arms share it, shape (n,).
         widest: index of the plate at whose neck's edge it is; -1: on the grid common to all plates.
-        most: largest `along` of each plate [m].
+        along_max: largest `along` of each plate [m].
         places: of the screws relative to the plate's centre [m], shape (n, m, 2).
         top, low: height of the trunk at those points of each screw in B [m], shape (n, m).
     """
@@ -84,7 +84,7 @@ class Patterns(Table):
     across: FloatArray
     shared: NDArray[np.bool_]
     widest: NDArray[np.int64]
-    most: tuple[float, ...]
+    along_max: tuple[float, ...]
     places: FloatArray
     top: FloatArray
     low: FloatArray
@@ -94,7 +94,7 @@ class Patterns(Table):
 
     def of(self, index: int) -> "Patterns":
         """The patterns of the plate with this index."""
-        inside = (self.widest < 0) & (self.along < self.most[index])
+        inside = (self.widest < 0) & (self.along < self.along_max[index])
         return self.take(inside | (self.widest == index))
 
 
@@ -111,21 +111,21 @@ def flat_patterns(
     grid = _pattern_grid(
         feet.y,
         max(PATTERN_STEP, feet.reach / 40.0),
-        room_to_foot(feet, plates[0].screw),
+        screw_to_foot(feet, plates[0].screw),
         tuple(plate.neck - EDGE * plate.screw.clearance_hole for plate in plates),
         feet.arms,
     )
     lands, middle = disc_points((0.0, 0.0), plates[0].sleeve_radius), np.array([feet.x + row, 0.0])
-    some, kept = lands[:: max(1, len(lands) // _SOME)], np.arange(len(grid))
+    few_points, rows = lands[:: max(1, len(lands) // _POINTS_CHECKED_FIRST)], np.arange(len(grid))
     # Most patterns already fail at a few points of their first screw.
     for screw_places in grid.places.swapaxes(0, 1):
-        top, low = _top_and_low(surface, screw_places[kept, None] + some + middle)
+        top, low = _top_and_low(surface, screw_places[rows, None] + few_points + middle)
         with np.errstate(invalid="ignore"):
-            kept = kept[top - low <= FLATNESS]
-        if not len(kept):
+            rows = rows[top - low <= FLATNESS]
+        if not len(rows):
             break
-    top, low = _top_and_low(surface, grid.places[kept, :, None] + some + middle)
-    return replace(grid.take(kept), top=top, low=low)
+    top, low = _top_and_low(surface, grid.places[rows, :, None] + few_points + middle)
+    return replace(grid.take(rows), top=top, low=low)
 
 
 def _top_and_low(surface: HeightMap, points: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -136,31 +136,31 @@ def _top_and_low(surface: HeightMap, points: FloatArray) -> tuple[FloatArray, Fl
 
 @lru_cache(maxsize=8)
 def _pattern_grid(
-    aside: float, step: float, apart: float, most: tuple[float, ...], arms: int
+    foot_distance: float, step: float, clearance: float, along_max: tuple[float, ...], arms: int
 ) -> Patterns:
     """Screw patterns clear of the feet, regardless of the surface below them.
 
     Args:
-        aside: distance of a foot's centre from its plate's [m]. step: between patterns [m].
-        apart: least distance of a screw from the centre of a foot [m].
-        most: largest distance of a screw from the middle line of its arm, for each plate [m].
+        foot_distance: distance of a foot's centre from its plate's [m]. step: between patterns [m].
+        clearance: least distance of a screw from the centre of a foot [m].
+        along_max: largest distance of a screw from the middle line of its arm, for each plate [m].
         arms: number of arms of each plate.
     """
-    steps = np.concatenate([np.arange(SPREAD / 2.0, max(most), step), most])
-    widest = np.concatenate([np.full(len(steps) - len(most), -1), np.arange(len(most))])
+    steps = np.concatenate([np.arange(SPREAD / 2.0, max(along_max), step), along_max])
+    widest = np.concatenate([np.full(len(steps) - len(along_max), -1), np.arange(len(along_max))])
     order = np.argsort(steps, kind="stable")
     steps, widest = steps[order], widest[order]
-    out = np.append(np.arange(SPREAD / 2.0, aside, step), aside)
-    along, across = (each.ravel() for each in np.meshgrid(steps, out, indexing="ij"))
-    half, edges = pi / arms, np.repeat(widest, len(out))
+    distances = np.append(np.arange(SPREAD / 2.0, foot_distance, step), foot_distance)
+    along, across = (grid.ravel() for grid in np.meshgrid(steps, distances, indexing="ij"))
+    half_angle, plate_index = pi / arms, np.repeat(widest, len(distances))
     shared = np.zeros(len(along), dtype=bool)
-    clear = across * sin(half) - along * cos(half) >= SPREAD / 2.0 - SAME
+    clear = across * sin(half_angle) - along * cos(half_angle) >= SPREAD / 2.0 - SAME_PLACE
     if arms > len(SENSES):
-        between = steps / np.tan(half)
+        between = steps / np.tan(half_angle)
         along, across = np.append(along, steps), np.append(across, between)
         shared = np.append(shared, np.ones(len(between), dtype=bool))
-        clear, edges = np.append(clear, shared[shared]), np.append(edges, widest)
-    clear &= np.hypot(along, aside - across) >= apart
+        clear, plate_index = np.append(clear, shared[shared]), np.append(plate_index, widest)
+    clear &= np.hypot(along, foot_distance - across) >= clearance
     places = np.stack(
         [
             np.stack([y * side * along + x * across, y * across - x * side * along], axis=1)
@@ -171,12 +171,12 @@ def _pattern_grid(
         ],
         axis=1,
     )
-    none = np.empty(places.shape[:2])
-    found = Patterns(along, across, shared, edges, most, places, none, none)
-    return found.take(clear)
+    empty = np.empty(places.shape[:2])
+    patterns = Patterns(along, across, shared, plate_index, along_max, places, empty, empty)
+    return patterns.take(clear)
 
 
-def screwed(
+def with_screws(
     surface: HeightMap, plate: CarrierPlate, patterns: Sequence[Patterns]
 ) -> CarrierPlate | None:
     """The plate with the widest pattern of screws that the trunk holds; None: there is none.
@@ -188,72 +188,73 @@ def screwed(
     """
     trunk: list[Point] = []
     sleeves: list[float] = []
-    for ahead, each in zip(plate.rows, patterns, strict=True):
-        best = _widest(surface, plate, plate.position[0] + ahead, each)
-        if best is None:
+    for ahead, row_patterns in zip(plate.rows, patterns, strict=True):
+        widest = _widest_pattern(surface, plate, plate.position[0] + ahead, row_patterns)
+        if widest is None:
             return None
-        index, gaps = best
-        count = plate.arms if each.shared[index] else len(gaps)
+        index, gaps = widest
+        count = plate.arms if row_patterns.shared[index] else len(gaps)
         trunk += [
-            (ahead + round(float(x), 6), round(float(y), 6)) for x, y in each.places[index][:count]
+            (ahead + round(float(x), 6), round(float(y), 6))
+            for x, y in row_patterns.places[index][:count]
         ]
         sleeves += gaps[:count].tolist()
     return replace(plate, trunk=tuple(trunk), sleeves=tuple(sleeves))
 
 
-def _widest(
+def _widest_pattern(
     surface: HeightMap, plate: CarrierPlate, x: float, patterns: Patterns
 ) -> tuple[int, FloatArray] | None:
     """Index of the widest pattern that holds one row of a plate, and its sleeves' lengths [m].
 
     Args:
-        surface, plate, patterns: see `screwed`, of one row. x: of its middle in B [m].
+        surface, plate, patterns: see `with_screws`, of one row. x: of its middle in B [m].
     """
     z, longest = plate.position[2], POST_MAX if plate.on_posts else SLEEVE_MAX
     spread = np.minimum(patterns.along, patterns.across) + 0.1 * (patterns.along + patterns.across)
-    may_reach = patterns.top <= z + PROUD
+    may_reach = patterns.top <= z + INTERFERENCE_MAX
     # A flat land is nowhere higher than a few of its points by more than that.
     may_reach &= z - patterns.top <= longest + FLATNESS
-    at_most = spread + (z - patterns.low <= FLATNESS).all(axis=1)
+    score_max = spread + (z - patterns.low <= FLATNESS).all(axis=1)
     order = np.flatnonzero(may_reach.all(axis=1))
-    order = order[np.argsort(-at_most[order], kind="stable")]
+    order = order[np.argsort(-score_max[order], kind="stable")]
     lands, middle = disc_points((0.0, 0.0), plate.sleeve_radius), np.array([x, 0.0])
-    best, score, found = -1, 0.0, np.empty(0)
-    for start in range(0, len(order), _AT_ONCE):
-        some = order[start : start + _AT_ONCE]
-        if at_most[some[0]] < score:
+    best, score, sleeves = -1, 0.0, np.empty(0)
+    for start in range(0, len(order), _PATTERNS_AT_ONCE):
+        rows = order[start : start + _PATTERNS_AT_ONCE]
+        if score_max[rows[0]] < score:
             break
-        top, low = _top_and_low(surface, patterns.places[some, :, None] + lands + middle)
+        top, low = _top_and_low(surface, patterns.places[rows, :, None] + lands + middle)
         with np.errstate(invalid="ignore"):
-            held = (top - low <= FLATNESS) & (top <= z + PROUD) & (z - top <= longest)
+            held = (top - low <= FLATNESS) & (top <= z + INTERFERENCE_MAX) & (z - top <= longest)
         direct = (z - low <= FLATNESS).all(axis=1)
-        scores = np.where(held.all(axis=1), spread[some] + direct, -1.0)
+        scores = np.where(held.all(axis=1), spread[rows] + direct, -1.0)
         # Among equals, the first one.
-        for one, index in enumerate(some.tolist()):
-            if scores[one] > score or (scores[one] == score and index < best):
-                best, score = index, float(scores[one])
-                found = np.where(z - low[one] <= FLATNESS, 0.0, np.round(z - top[one], 5))
-    return None if best < 0 else (best, found)
+        for row, index in enumerate(rows.tolist()):
+            if scores[row] > score or (scores[row] == score and index < best):
+                best, score = index, float(scores[row])
+                sleeves = np.where(z - low[row] <= FLATNESS, 0.0, np.round(z - top[row], 5))
+    return None if best < 0 else (best, sleeves)
 
 
-def room_to_foot(feet: Feet, held_by: Screw) -> float:
+def screw_to_foot(feet: Feet, plate_screw: Screw) -> float:
     """Least distance of a plate's screws from the centre of a foot [m]."""
-    return feet.radius + held_by.head_diameter / 2.0 + HEAD_TO_FOOT
+    return feet.radius + plate_screw.head_diameter / 2.0 + HEAD_TO_FOOT
 
 
-WIDER = (0.0, 5e-3, 10e-3, 15e-3, 20e-3)
+NECK_INCREMENTS = (0.0, 5e-3, 10e-3, 15e-3, 20e-3)
 """Increments of half a neck's width to try [m], where the trunk does not take the narrowest plate's
 screws or that plate is too weak."""
 
-_FEW = 29
+_EVERY_NTH = 29
 """One in this many points of a foot's screw lands is checked first."""
 
 
-def held_at(
+def support_at(
     surface: HeightMap,
     feet: Feet,
     underside: float | None = None,
-    held_by: Sequence[Screw] = (PLATE_SCREW, STRONG_SCREW),
+    screws: Sequence[Screw] = (PLATE_SCREW, STRONG_SCREW),
 ) -> tuple[float, CarrierPlate | None]:
     """Height at which the trunk, or a plate on it, holds the feet [m], and that plate.
 
@@ -262,61 +263,64 @@ def held_at(
     Args:
         surface: of the trunk. feet: on it.
         underside: specified height of the feet in B [m]; None: the trunk's height.
-        held_by: screws of a plate, tried in turn.
+        screws: screws of a plate, tried in turn.
     """
     plane = nan if underside is None else underside
     if underside is None:
         # A few points of the screws' lands rule out most places, where they are not level.
-        few = np.concatenate([ring_points(side, *feet.lands)[::_FEW] for side in feet.middles])
-        heights = heights_at(surface, few)
+        sampled = np.concatenate(
+            [ring_points(center, *feet.lands)[::_EVERY_NTH] for center in feet.centers]
+        )
+        heights = heights_at(surface, sampled)
         with np.errstate(invalid="ignore"):
             level = heights.max() - heights.min() <= FLATNESS
         if level:
-            bases = [disc_points(side, feet.radius) for side in feet.middles]
+            bases = [disc_points(center, feet.radius) for center in feet.centers]
             plane = highest_of(surface, np.concatenate(bases))
     if np.isfinite(plane) and all(
-        contact_of("", surface, side, feet.radius, plane=plane, lands=feet.lands).held
-        for side in feet.middles
+        contact_of("", surface, center, feet.radius, plane=plane, lands=feet.lands).held
+        for center in feet.centers
     ):
         return float(round(plane, 6)), None
-    plates = (_plate(surface, feet, underside, each) for each in held_by if feet.rows)
+    plates = (_plate(surface, feet, underside, plate_screw) for plate_screw in screws if feet.rows)
     return next(((plate.top, plate) for plate in plates if plate is not None), (nan, None))
 
 
 def _plate(
-    surface: HeightMap, feet: Feet, underside: float | None, held_by: Screw
+    surface: HeightMap, feet: Feet, underside: float | None, plate_screw: Screw
 ) -> CarrierPlate | None:
     """The lightest plate, over all necks and stock thicknesses, that carries all modules; or None.
 
     Each pair has its own plate, all identical and at one height. A ring has a single plate.
     """
-    outlines = _outlines(replace(feet, x=0.0), held_by)
+    outlines = _outlines(replace(feet, x=0.0), plate_screw)
     if not outlines:
         return None
     flat = [flat_patterns(surface, feet, row, outlines) for row in feet.rows]
-    best, lightest, beside = None, inf, nan
+    best, lightest, trunk_beside = None, inf, nan
     for index, outline in enumerate(outlines):
         patterns = [row.of(index) for row in flat]
         if not all(len(row) for row in patterns):
             continue
-        if isnan(beside):
-            around = np.concatenate([disc_points(middle, feet.reach) for middle in feet.middles])
-            beside = highest_of(surface, around)
+        if isnan(trunk_beside):
+            around = np.concatenate([disc_points(middle, feet.reach) for middle in feet.centers])
+            trunk_beside = highest_of(surface, around)
         plate = replace(outline, position=(feet.x, 0.0, 0.0))
-        beneath = highest_of(surface, plate_points(plate))
+        trunk_below = highest_of(surface, plate_points(plate))
         # Beside the plate the trunk may be as high as the plate's top: modules begin above that.
         levels: list[tuple[float, tuple[float, ...]]]
-        levels = [(round(max(beneath, beside - STOCK[0]), 6), STOCK)]
+        levels = [(round(max(trunk_below, trunk_beside - STOCK[0]), 6), STOCK)]
         if underside is not None:
             # A thicker plate is lower.
             levels = [
                 (underside - thickness, (thickness,))
                 for thickness in STOCK
-                if underside - thickness >= beneath - PROUD and underside >= beside - PROUD
+                if underside - thickness >= trunk_below - INTERFERENCE_MAX
+                and underside >= trunk_beside - INTERFERENCE_MAX
             ]
-        borne = _borne(surface, feet, plate, patterns, levels)
-        if borne is not None and (mass := borne.mass) < lightest:
-            best, lightest = borne, mass
+        strong = _thinnest_plate(surface, feet, plate, patterns, levels)
+        if strong is not None and (mass := strong.mass) < lightest:
+            best, lightest = strong, mass
         # Wider plates of the same thickness are heavier.
         if best is not None and best.thickness == STOCK[0]:
             return best
@@ -346,29 +350,29 @@ def blank_plate(feet: Feet, radius: float, neck: float) -> CarrierPlate:
 
 
 @lru_cache(maxsize=8)
-def _outlines(feet: Feet, held_by: Screw) -> tuple[CarrierPlate, ...]:
+def _outlines(feet: Feet, plate_screw: Screw) -> tuple[CarrierPlate, ...]:
     """Plates of all necks under feet around the origin, without screws, the narrowest first."""
     ring = feet.slot_radius + SLOT_EDGE
     # Heads clear the feet in front of and behind the point where these are closest to each other.
     inside = max(0.0, feet.y - SPREAD / 2.0)
-    off = room_to_foot(feet, held_by)
-    ahead = sqrt(max(0.0, off**2 - inside**2)) if feet.arms == len(SENSES) else 0.0
-    least = max(SPREAD / 2.0, ahead + PATTERN_STEP) + EDGE * held_by.clearance_hole
+    clearance = screw_to_foot(feet, plate_screw)
+    ahead = sqrt(max(0.0, clearance**2 - inside**2)) if feet.arms == len(SENSES) else 0.0
+    neck_min = max(SPREAD / 2.0, ahead + PATTERN_STEP) + EDGE * plate_screw.clearance_hole
     plates = []
-    for neck in (least + wider for wider in WIDER):
+    for neck in (neck_min + increment for increment in NECK_INCREMENTS):
         radius = max(ring, neck)
         plate = replace(
             blank_plate(feet, radius, neck),
-            thread=held_by.name,
+            thread=plate_screw.name,
             arms=feet.arms,
-            sleeve_wall=POST_WALL if held_by is POST_SCREW else SLEEVE_WALL,
+            sleeve_wall=POST_WALL if plate_screw is POST_SCREW else SLEEVE_WALL,
         )
         if plate.shape.fits:
             plates.append(plate)
     return tuple(plates)
 
 
-def _borne(
+def _thinnest_plate(
     surface: HeightMap,
     feet: Feet,
     blank: CarrierPlate,
@@ -384,11 +388,11 @@ def _borne(
     """
     x, y, _ = blank.position
     for height, thicknesses in levels:
-        held = screwed(surface, replace(blank, position=(x, y, height)), patterns)
-        if held is None:
+        fastened = with_screws(surface, replace(blank, position=(x, y, height)), patterns)
+        if fastened is None:
             # Under a thicker plate sleeves are shorter, so another pattern may be within reach.
             continue
-        for plate in thick_enough(held, feet, ALUMINIUM.strength / SAFETY, thicknesses):
+        for plate in thick_enough(fastened, feet, ALUMINIUM.strength / SAFETY, thicknesses):
             if plate.on_posts and max(plate.screw_lengths) > POST_SCREW_MAX:
                 break
             if plate_screws_use(plate, feet.mass, feet.height) <= 1.0:
@@ -405,6 +409,6 @@ def thick_enough(
         blank: of any thickness. feet: on it. stress: allowed [Pa].
     """
     stresses = plate_stresses(blank, np.array(thicknesses), feet.mass, feet.height)
-    for thickness, own in zip(thicknesses, stresses.tolist(), strict=True):
-        if own <= stress:
+    for thickness, largest in zip(thicknesses, stresses.tolist(), strict=True):
+        if largest <= stress:
             yield replace(blank, thickness=thickness)

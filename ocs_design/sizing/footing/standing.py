@@ -26,7 +26,7 @@ from ocs_design.sizing.footing.feet import (
 )
 from ocs_design.sizing.footing.mast import footing_behind
 from ocs_design.sizing.footing.on_top import footing_on_pedestals, footing_on_top
-from ocs_design.sizing.footing.plate import held_at
+from ocs_design.sizing.footing.plate import support_at
 from ocs_design.sizing.free_place import Search, Sizes, place_free
 from ocs_design.sizing.place import place_at
 
@@ -57,22 +57,22 @@ def footing_of(
     sizes, surface = Sizes.of(envelope), trunk_surface(robot)
     largest, mass = sizes.largest, MODULE_SHARE * robot.mass
     foot = Foot(Housing(envelope.outer_radius_max, envelope.height_max))
-    base = foot.base_radius, foot.slot_radius, largest.reach, largest.standing
+    base = foot.base_radius, foot.slot_radius, largest.reach, largest.wheel_height
     if position is not None:
         place = place_at(position, layout)
         if surface is None or layout != PAIR:
             return Footing(place, None)
         x, y, z = position
         feet = Feet(x, ((0.0, y), (0.0, -y)), SENSES, *base, mass)
-        return Footing(place, held_at(surface, feet, z - largest.standing)[1])
+        return Footing(place, support_at(surface, feet, z - largest.wheel_height)[1])
     if surface is not None:
         start = round(float(robot.com[0]), 6) + 0.0
         slopes = slopes_of(layout.axes(ISOTROPIC if layout.angle is None else layout.angle))
         feet = Feet(start, ring_of(layout, largest.reach), slopes, *base, mass)
         search = Search(collision_model(robot), sizes, layout)
-        found = footing_on_top(surface, feet, search, FailedSearches())
-        if found is not None:
-            return found
+        footing = footing_on_top(surface, feet, search, FailedSearches())
+        if footing is not None:
+            return footing
     return Footing(place_free(robot, envelope, layout).place, None)
 
 
@@ -90,18 +90,18 @@ def stand_on_trunk(
         specified: whether the modules' positions are specified.
         formed: whether a mast may stand on a block shaped to the trunk.
     """
-    found = footing_under(device, robot, specified=specified, formed=formed)
-    return device if found is None else standing_on(device, found)
+    footing = footing_under(device, robot, specified=specified, formed=formed)
+    return device if footing is None else standing_on(device, footing)
 
 
-def standing_on(device: Device, found: Footing) -> Device:
+def standing_on(device: Device, footing: Footing) -> Device:
     """The device with its modules at the positions of its footing."""
-    centers = found.place.centers(device_size(device))
+    centers = footing.place.centers(device_size(device))
     modules = (
         replace(module, position=frozen(center))
         for module, center in zip(device.modules, centers, strict=True)
     )
-    return replace(device, modules=tuple(modules), plate=found.plate, pedestals=found.pedestals)
+    return replace(device, modules=tuple(modules), plate=footing.plate, pedestals=footing.pedestals)
 
 
 def footing_under(
@@ -131,8 +131,8 @@ def footing_under(
         places = [module.position for module in device.modules]
         if layout != PAIR:
             return Footing(place_at(tuple(np.concatenate(places).tolist()), layout), None)
-        _, plate = held_at(surface, feet, float(places[0][2]) - foot_of(device).wheel_height)
+        _, plate = support_at(surface, feet, float(places[0][2]) - foot_of(device).wheel_height)
         return Footing(place_at(tuple(places[0].tolist())), plate)
     feet = replace(feet, bases=ring_of(layout, feet.reach))
-    found = footing_on_top(surface, feet, Search.of(robot, feet.size, layout), failed)
-    return found or footing_behind(robot, feet, layout, failed, formed=formed)
+    footing = footing_on_top(surface, feet, Search.of(robot, feet.size, layout), failed)
+    return footing or footing_behind(robot, feet, layout, failed, formed=formed)

@@ -163,7 +163,7 @@ def least_composite_inertia(
         [
             place.centers(Size(reach, standing))
             for reach in (least.smallest.reach, least.largest.reach)
-            for standing in (least.smallest.standing, least.largest.standing)
+            for standing in (least.smallest.wheel_height, least.largest.wheel_height)
         ]
     )
     middle = corners.mean(axis=-2)
