@@ -98,9 +98,9 @@ def sentence(name: str) -> str:
     found = kept()[name]
     low, asked = floored(100.0 * found["whole_interval"][0], 1), 100.0 * found["asked"]
     return (
-        f"Flown with these (`size --certify`, seed {found['seed']}), {found['whole']} of "
-        f"{found['samples']}\nof {name} do all maneuvers. That is at least {low} of 100 with 95 % "
-        f"confidence, and the test for\n{asked:.4g} of 100 says: {found['verdict']} "
+        f"With all of them (`size --certify`, seed {found['seed']}), {found['whole']} of "
+        f"{found['samples']}\nsampled {name} complete all maneuvers: at least {low} of 100, with "
+        f"95 % confidence. The test for\n{asked:.4g} of 100 says: {found['verdict']} "
         f"([Monte Carlo](docs/monte_carlo.md), [all robots](docs/robots.md)).\n"
     )
 
@@ -122,8 +122,8 @@ def certificates(_: str) -> str:
                 worst,
             )
         )
-    heads = ("robot", "device", "99 %", "do all", "at least", "round", "largest tilt at touchdown")
-    return table(heads, rows)
+    heads = ("robot", "device", "verdict for 99 %", "complete all", "at least", "round")
+    return table((*heads, "largest tilt at touchdown"), rows)
 
 
 def endings(test: SequentialTest) -> list[tuple[int, int, Conclusion, float]]:

@@ -94,7 +94,7 @@ def weighed(each: LayoutAnswer) -> tuple[str, ...]:
 
 HEADER = (
     *("layout", "mass", "roll [N m s]", "pitch", "yaw", "one lost: roll", "pitch", "yaw"),
-    *("does with one lost", "motor", "stands on the trunk"),
+    *("feasible with one lost", "motor", "stands on the trunk"),
 )
 
 

@@ -64,14 +64,14 @@ def bound_statements(robot: Robot) -> Iterator[Statement]:
     )
     wheels = 2.0 * cos(INCIDENCE) * SPIN_INERTIA
     yield Statement(
-        "I_f that the wheels of Table 2 amount to at 40°, 2 cos α I_f,zz",
+        "I_f of the two wheels of Table 2 at 40°, 2 cos α I_f,zz",
         "not stated",
         f"{wheels:.3e} kg m²",
         why="the rate and the speed that it was chosen for are not stated",
     )
     reached = wheels * MOTOR_SPEED / (inertia + wheels)
     yield Statement(
-        "change of pitch rate that they give with Solo12's own motors, 7,200 rpm",
+        "largest change of pitch rate with Solo12's own motors, 7,200 rpm",
         "not stated",
         f"{reached:.2f} rad/s",
         why="the drop needs more: see below",

@@ -172,7 +172,7 @@ def drop_statements() -> Iterator[Statement]:
     planned, step = _metrics(turned), _metrics(flights.step)
     more = step.peak_wheel_torque / planned.peak_wheel_torque
     yield Statement(
-        "the same with the paper's law, level asked for at once",
+        "the same with the paper's law and a step command to level",
         "not stated",
         _effort(step),
         why=f"{more:.1f} times the torque of a smooth turn; the paper limits neither",
@@ -221,7 +221,7 @@ def landing(flights: Flights, name: str, *, ocs: bool) -> str:
 
 def _motor(flights: Flights, name: str) -> Iterator[Statement]:
     found = _effort(_metrics(flights.runs[name, True]))
-    yield Statement("what the motors give", "not stated", found, why="the paper has no motor")
+    yield Statement("required of the motors", "not stated", found, why="the paper has no motor")
 
 
 def _effort(metrics: Metrics) -> str:
