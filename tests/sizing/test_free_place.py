@@ -129,7 +129,7 @@ def test_the_swept_sphere_encloses_housing_and_motor():
     wide = module_size(0.01, 0.03, Behind(0.0, 0.0), 0.0)
     assert wide.reach == Foot(Housing(0.01, 0.03)).base_radius > 0.04
     # Rim, shell, 2 mm of clearance, and the foot's base of 3 mm.
-    assert (flat.standing, long.standing) == pytest.approx((0.0486, 0.0486))
+    assert (flat.wheel_height, long.wheel_height) == pytest.approx((0.0486, 0.0486))
 
 
 def test_on_top_a_module_stands_on_its_foot():
