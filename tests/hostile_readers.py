@@ -21,7 +21,7 @@ from ocs_design.requirement.resolving import resolve
 from ocs_design.requirement.sections import RobotSection
 from ocs_design.requirement.specification import Specification
 from ocs_design.robot.manual import robot_by_hand
-from ocs_design.robot.meshes import mesh_bounds, own_bounds, size
+from ocs_design.robot.meshes import longest_side, mesh_bounds, unscaled_bounds
 from ocs_design.robot.mujoco_model import build_spec
 from ocs_design.robot.reader import read_group_states, read_robot
 from ocs_design.workflows.inspect import inspect_robot
@@ -153,7 +153,9 @@ def read_and_build(path: Path) -> object:
 def read_and_resolve(path: Path) -> object:
     """A specification, and all that it leaves open."""
     specification = read_specification(path)
-    return resolve(specification, BY_HAND, size(BY_HAND.tree, BY_HAND.posture, BY_HAND.trunk))
+    return resolve(
+        specification, BY_HAND, longest_side(BY_HAND.tree, BY_HAND.posture, BY_HAND.trunk)
+    )
 
 
 def read_and_restore(path: Path) -> object:
@@ -171,7 +173,7 @@ def read_and_restore(path: Path) -> object:
 
 def read_mesh_bounds(path: Path) -> object:
     """Bounds of a mesh; None if it cannot be read."""
-    own_bounds.cache_clear()
+    unscaled_bounds.cache_clear()
     return mesh_bounds(path, (1.0, 1.0, 1.0))
 
 

@@ -220,8 +220,8 @@ class GearSheet:
         shared = Gear(
             name=self.name,
             ratio=1.0,
-            efficiency=_stated(self.efficiency),
-            mass=_stated(self.mass_kg),
+            efficiency=_given(self.efficiency),
+            mass=_given(self.mass_kg),
             inertia=0.0,
             motor_speed_max=motor_speed,
             wheel_speed_max=math.inf,
@@ -229,16 +229,16 @@ class GearSheet:
             reverses=self.reverses,
             source=self.source,
         )
-        found = []
+        available = []
         # For every two different pulleys; two of equal size would only add mass.
         for pair in itertools.permutations(self.teeth, 2) if self.kind is GearKind.BELT else ():
             belt = BeltStage(
                 *pair,
-                pitch=_stated(self.pitch_m),
-                width=_stated(self.width_m),
-                belt_density=_stated(self.belt_mass_kg_per_m),
-                pulley_density=_stated(self.pulley_density_kg_m3),
-                working_tension=_stated(self.working_tension_n),
+                pitch=_given(self.pitch_m),
+                width=_given(self.width_m),
+                belt_density=_given(self.belt_mass_kg_per_m),
+                pulley_density=_given(self.pulley_density_kg_m3),
+                working_tension=_given(self.working_tension_n),
             )
             mass = shared.mass + belt.mass
             stage = replace(
@@ -247,11 +247,11 @@ class GearSheet:
                 ratio=belt.ratio,
                 mass=mass,
                 inertia=belt.inertia,
-                wheel_speed_max=belt.wheel_speed_max(_stated(self.belt_speed_max_m_s)),
+                wheel_speed_max=belt.wheel_speed_max(_given(self.belt_speed_max_m_s)),
                 torque_max=belt.torque_max,
                 room=replace(belt.room, center=belt.room.center * belt.mass / mass),
             )
-            found.append(stage)
+            available.append(stage)
         for ratio in self.ratios if self.kind is GearKind.FIXED else ():
             # Referred to the wheel, inertia on the motor's shaft is multiplied by the ratio
             # squared.
@@ -260,14 +260,14 @@ class GearSheet:
                 shared,
                 name=f"{self.name} {ratio:g}:1",
                 ratio=ratio,
-                inertia=scale * _stated(self.inertia_kg_m2),
-                torque_max=_stated(self.torque_max_nm),
+                inertia=scale * _given(self.inertia_kg_m2),
+                torque_max=_given(self.torque_max_nm),
             )
-            found.append(fixed)
-        return tuple(sorted(found, key=lambda gear: (gear.ratio, gear.name)))
+            available.append(fixed)
+        return tuple(sorted(available, key=lambda gear: (gear.ratio, gear.name)))
 
 
-def _stated(figure: float | None) -> float:
+def _given(figure: float | None) -> float:
     """A figure that `missing` has confirmed to be given."""
     assert figure is not None
     return figure
@@ -328,18 +328,18 @@ def named_stages(name: str, known: Mapping[str, GearSheet] | None = None) -> tup
         SpecificationError: see `gear`; or figures that its stages need are missing.
     """
     sheets = gears() if known is None else known
-    one = tuple(stage for stage in stages(sheets.values()) if stage.name == name)
-    if one and name not in sheets:
-        return one
-    named = gear(name, sheets)
-    if not named.stages():
-        lacks = ", ".join(named.missing) or "teeth of a second pulley"
+    matching = tuple(stage for stage in stages(sheets.values()) if stage.name == name)
+    if matching and name not in sheets:
+        return matching
+    sheet = gear(name, sheets)
+    if not sheet.stages():
+        lacks = ", ".join(sheet.missing) or "teeth of a second pulley"
         raise SpecificationError(
-            f"no stage of the gear {named.name!r} can be computed: its row lacks {lacks}",
+            f"no stage of the gear {sheet.name!r} can be computed: its row lacks {lacks}",
             hint="Give these figures in a file with --gears, or name another gear: "
             "`ocs-design catalogue gears` lists all.",
         )
-    return named.stages()
+    return sheet.stages()
 
 
 def load_gears(path: Path) -> Mapping[str, GearSheet]:
@@ -356,10 +356,10 @@ def stages(sheets: Iterable[GearSheet]) -> tuple[Gear, ...]:
     return tuple(stage for sheet in sheets for stage in sheet.stages())
 
 
-def gears_to_json(found: Iterable[GearSheet]) -> bytes:
+def gears_to_json(sheets: Iterable[GearSheet]) -> bytes:
     """Gears as indented UTF-8 JSON: each row as given, and its stages in SI; null: not limited."""
     rows = [
         {**msgspec.to_builtins(sheet), "missing": sheet.missing, "stages": sheet.stages()}
-        for sheet in found
+        for sheet in sheets
     ]
     return to_json({"schema_version": 1, "gears": rows})

@@ -77,15 +77,15 @@ def materials() -> Mapping[str, Material]:
     """Every material of the catalogue by name, sorted; read and checked on the first call."""
     text = files("ocs_design.catalogue").joinpath("materials.csv").read_text(encoding="utf-8")
     rows = sorted(csv.DictReader(text.splitlines()), key=lambda row: row["name"])
-    found = {}
+    by_name = {}
     for row in rows:
         figures: dict[str, Any] = {
             name: float(row[column]) if row[column] else None for name, column in _COLUMNS.items()
         }
-        found[row["name"]] = Material(name=row["name"], source=row["source"], **figures)
-    if len(found) < len(rows):
+        by_name[row["name"]] = Material(name=row["name"], source=row["source"], **figures)
+    if len(by_name) < len(rows):
         raise OcsError("materials.csv names a material twice")
-    return MappingProxyType(found)
+    return MappingProxyType(by_name)
 
 
 def material(name: str) -> Material:
@@ -104,11 +104,11 @@ _STEELS = ("stainless-", "steel-")
 def strong_materials(*, steel: bool = False) -> tuple[Material, ...]:
     """Materials whose stress can be checked, all of them or only steels."""
     return tuple(
-        found
-        for found in materials().values()
-        if found.yield_strength is not None
-        and found.poisson_ratio is not None
-        and (not steel or found.name.startswith(_STEELS))
+        material
+        for material in materials().values()
+        if material.yield_strength is not None
+        and material.poisson_ratio is not None
+        and (not steel or material.name.startswith(_STEELS))
     )
 
 

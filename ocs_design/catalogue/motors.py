@@ -64,7 +64,9 @@ _DRAWN_THREADS = (
 def drawn_threads(name: str, source: str) -> DrawnThreads | None:
     """What a model draws of a motor of that name, or of one whose threads its source counts."""
     named = f"{name} {source}"
-    return next((each for each in _DRAWN_THREADS if re.search(rf"\b{each.model}\b", named)), None)
+    return next(
+        (threads for threads in _DRAWN_THREADS if re.search(rf"\b{threads.model}\b", named)), None
+    )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -151,10 +153,10 @@ class MotorSheet(MotorFigures):
     @property
     def rotor(self) -> BoltCircle | None:
         """Threads in the rotor; None unless all of their figures are given."""
-        found = _circle(self.rotor_bolt_circle_m, self.rotor_bolts, self.rotor_thread)
+        circle = _circle(self.rotor_bolt_circle_m, self.rotor_bolts, self.rotor_thread)
         drawn = drawn_threads(self.name, self.source)
-        return found and replace(
-            found,
+        return circle and replace(
+            circle,
             screws=self.rotor_screws or USUAL_CLASS,
             depth=self.rotor_depth_m,
             depth_max=self.rotor_depth_max_m,
@@ -164,10 +166,10 @@ class MotorSheet(MotorFigures):
     @property
     def stator(self) -> BoltCircle | None:
         """Threads in the stator; None unless all of their figures are given."""
-        found = _circle(self.stator_bolt_circle_m, self.stator_bolts, self.stator_thread)
+        circle = _circle(self.stator_bolt_circle_m, self.stator_bolts, self.stator_thread)
         drawn = drawn_threads(self.name, self.source)
-        return found and replace(
-            found,
+        return circle and replace(
+            circle,
             depth=self.stator_depth_m,
             depth_max=self.stator_depth_max_m,
             drawn=None if drawn is None else drawn.stator,
@@ -176,7 +178,7 @@ class MotorSheet(MotorFigures):
     @property
     def mounting(self) -> Mounting | None:
         """Mechanical interfaces; None if none of them is given."""
-        found = Mounting(
+        mounting = Mounting(
             self.shaft_diameter_m,
             self.rotor,
             self.stator,
@@ -184,7 +186,7 @@ class MotorSheet(MotorFigures):
             self.shaft_length_m,
             self.shaft_form,
         )
-        return None if found == Mounting() else found
+        return None if mounting == Mounting() else mounting
 
     def motor(self) -> Motor:
         """The motor in SI and in the convention of `Motor`."""
@@ -261,12 +263,12 @@ def _contradictions(sheet: MotorSheet) -> Iterator[str]:
     voltage, resistance, k_t = sheet.rated_voltage, sheet.resistance, sheet.torque_constant
 
     # k_t = 30 / (pi Kv) in the six-step convention; `actuation.motor` has the others.
-    stated, convention, kv = sheet.kt_nm_per_a, sheet.kt_convention, sheet.kv_rpm_per_v
-    if stated is not None and convention is not None and kv is not None and k_t is not None:
+    given_kt, convention, kv = sheet.kt_nm_per_a, sheet.kt_convention, sheet.kv_rpm_per_v
+    if given_kt is not None and convention is not None and kv is not None and k_t is not None:
         product = k_t * rad_s(kv)
         if not _close(product, 1.0, SPEED_CONSTANT_TOLERANCE):
             yield (
-                f"k_t Kv is {stated * kv:.2f} N m/A rpm/V, which is not "
+                f"k_t Kv is {given_kt * kv:.2f} N m/A rpm/V, which is not "
                 f"{convention}{_fitting(sheet)}"
             )
 
@@ -293,9 +295,11 @@ def _contradictions(sheet: MotorSheet) -> Iterator[str]:
     # Saturation reduces k_t times the peak current; nothing increases it.
     peak, current_max = sheet.peak_torque_nm, sheet.peak_current
     if peak is not None and current_max is not None and k_t is not None:
-        most = k_t * current_max
-        if peak > most * (1.0 + PEAK_TOLERANCE):
-            yield f"peak torque is {peak:g} N m, above k_t times the peak current, {most:.4g} N m"
+        peak_max = k_t * current_max
+        if peak > peak_max * (1.0 + PEAK_TOLERANCE):
+            yield (
+                f"peak torque is {peak:g} N m, above k_t times the peak current, {peak_max:.4g} N m"
+            )
     short_term = peak or sheet.stall_torque_nm
     if short_term is not None and (sheet.continuous_torque_nm or 0.0) > short_term:
         yield f"continuous torque is above the short-term {short_term:g} N m"
@@ -316,9 +320,9 @@ def _fitting(sheet: MotorSheet) -> str:
     return f"; it fits {' or '.join(fitting)}" if fitting else "; it fits no convention"
 
 
-def _close(stated: float, expected: float, tolerance: float) -> bool:
+def _close(value: float, expected: float, tolerance: float) -> bool:
     """Whether a figure equals the expected one within a relative tolerance."""
-    return abs(stated / expected - 1.0) <= tolerance
+    return abs(value / expected - 1.0) <= tolerance
 
 
 LEAST_BOLTS = {"rotor": 3, "stator": 2}
@@ -388,7 +392,7 @@ def _density(sheet: MotorSheet) -> float | None:
     return mass / (math.pi / 4.0 * diameter**2 * length)
 
 
-def _meant(value: float, unit: str, share: float, limits: tuple[float, float]) -> str:
+def _likely_unit(value: float, unit: str, share: float, limits: tuple[float, float]) -> str:
     """Question whether the unit is off by a thousand, if that would explain it.
 
     Args:
@@ -401,21 +405,23 @@ def _meant(value: float, unit: str, share: float, limits: tuple[float, float]) -
     return "check its unit"
 
 
-def _of_mass(sheet: MotorSheet, limits: tuple[float, float]) -> Iterator[str]:
+def _mass_fault(sheet: MotorSheet, limits: tuple[float, float]) -> Iterator[str]:
     """Line on a mass that is implausible for the body, given a range of densities [kg/m^3]."""
     mass, density = sheet.mass or 0.0, _density(sheet)
     if density is not None and not limits[0] <= density <= limits[1]:
-        size = " x ".join(f"{1e3 * (each or 0.0):.4g}" for each in (sheet.diameter, sheet.length))
-        usual = " to ".join(f"{1e-3 * each:g}" for each in DENSITIES)
+        size = " x ".join(
+            f"{1e3 * (length or 0.0):.4g}" for length in (sheet.diameter, sheet.length)
+        )
+        usual = " to ".join(f"{1e-3 * density:g}" for density in DENSITIES)
         yield (
             f"mass_kg is {mass:g} kg in a body of {size} mm, {1e-3 * density:.4g} g/cm3, where "
-            f"motors have {usual}: {_meant(mass, 'kg', density, LIKELY)}"
+            f"motors have {usual}: {_likely_unit(mass, 'kg', density, LIKELY)}"
         )
 
 
-def _doubts(sheet: MotorSheet) -> Iterator[str]:
+def _implausible_figures(sheet: MotorSheet) -> Iterator[str]:
     """Figures that are possible but implausible, one line each, with the likely mistake."""
-    yield from _of_mass(sheet, LIKELY)
+    yield from _mass_fault(sheet, LIKELY)
     mass, torque = sheet.mass, sheet.motor().peak_torque
     # Without a size, the mass is judged by the torque.
     if mass is not None and torque is not None and _density(sheet) is None:
@@ -425,14 +431,14 @@ def _doubts(sheet: MotorSheet) -> Iterator[str]:
             yield (
                 f"mass_kg is {mass:g} kg for {torque:.3g} N m, where motors weigh {lightest:.2g} "
                 f"to {heaviest:.2g} kg: "
-                f"{_meant(mass, 'kg', mass, (lightest / 3.0, 3.0 * heaviest))}"
+                f"{_likely_unit(mass, 'kg', mass, (lightest / 3.0, 3.0 * heaviest))}"
             )
     shaft, body = sheet.shaft_length_m, sheet.length
     if shaft is not None and body is not None and shaft > SHAFT_SHARE * body:
         yield (
             f"shaft_length_m is {shaft:g} m, {shaft / body:.2g} times its motor's body, and shafts "
             f"protrude by less than {SHAFT_SHARE:g} times that: "
-            f"{_meant(shaft, 'm', shaft / body, (0.05, 1.0))}"
+            f"{_likely_unit(shaft, 'm', shaft / body, (0.05, 1.0))}"
         )
     k_t, (slow, fast) = sheet.torque_constant, SPEED_CONSTANTS
     kv = slow if k_t is None else 1.0 / (k_t * rad_s(1.0))
@@ -442,29 +448,31 @@ def _doubts(sheet: MotorSheet) -> Iterator[str]:
         name, value, unit, share, limits = of_kt if sheet.kv_rpm_per_v is None else of_kv
         yield (
             f"{name} is {value:g} {unit}, where motors have {slow:g} to {fast:g} rpm/V: "
-            f"{_meant(value or 0.0, unit, share, limits)}"
+            f"{_likely_unit(value or 0.0, unit, share, limits)}"
         )
     current, resistance, voltage = sheet.peak_current, sheet.resistance, sheet.rated_voltage
     if current is not None and resistance is not None and voltage is not None:
         share = current * resistance / voltage
         if not VOLTAGE_SHARES[0] <= share <= VOLTAGE_SHARES[1]:
-            stated = sheet.resistance_ohm or 0.0
+            resistance_given = sheet.resistance_ohm or 0.0
             yield (
-                f"resistance_ohm is {stated:g} ohm, which takes {current * resistance:.4g} V for "
-                f"peak_current_a, {sheet.peak_current_a:g} A, and rated_voltage_v is {voltage:g} "
-                f"V: {_meant(stated, 'ohm', share, VOLTAGE_SHARES)}"
+                f"resistance_ohm is {resistance_given:g} ohm, which takes "
+                f"{current * resistance:.4g} V for peak_current_a, {sheet.peak_current_a:g} A, "
+                f"and rated_voltage_v is {voltage:g} V: {_likely_unit(resistance_given, 'ohm', share, VOLTAGE_SHARES)}"
             )
 
 
 def _faults(sheet: MotorSheet) -> Iterator[str]:
     """Faults of a row, one line each; only contradictions can be excused by a remark."""
-    figures = {name: getattr(sheet, each.field) for name, each in columns_of(MotorSheet).items()}
+    figures = {
+        name: getattr(sheet, column.field) for name, column in columns_of(MotorSheet).items()
+    }
     sizes = {name: size for name, size in figures.items() if name.endswith("_m") and size}
     large = {name: size for name, size in sizes.items() if size >= LARGEST_MOTOR}
     for name, size in large.items():
         yield f"{name} is {size:g} m, and no motor is that large: did you mean {size / 1e3:g} m?"
     if not large:
-        yield from _of_mass(sheet, POSSIBLE)
+        yield from _mass_fault(sheet, POSSIBLE)
     if sheet.kt_nm_per_a is not None and sheet.kt_convention is None:
         yield f"kt_nm_per_a needs its kt_convention{_fitting(sheet)}"
     if sheet.resistance_ohm is not None and sheet.resistance_between is None:
@@ -474,9 +482,9 @@ def _faults(sheet: MotorSheet) -> Iterator[str]:
         yield f"shaft_diameter_m is {shaft:g}, but the motor is only {body:g} m wide"
     yield from _bolt_circle_faults(sheet, "rotor", sheet.rotor)
     yield from _bolt_circle_faults(sheet, "stator", sheet.stator)
-    voltage, most = sheet.rated_voltage, sheet.voltage_max
-    if voltage is not None and most is not None and voltage > most:
-        yield f"rated_voltage_v is {voltage:g}, above voltage_max_v, {most:g}"
+    voltage, voltage_max = sheet.rated_voltage, sheet.voltage_max
+    if voltage is not None and voltage_max is not None and voltage > voltage_max:
+        yield f"rated_voltage_v is {voltage:g}, above voltage_max_v, {voltage_max:g}"
     if sheet.shaft_form is not None and sheet.shaft_diameter_m is None:
         yield "shaft_form needs shaft_diameter_m"
     if sheet.rotor_screws is not None and sheet.rotor_screws not in CLASSES:
@@ -510,8 +518,8 @@ def motor(name: str, known: Mapping[str, Motor] | None = None) -> Motor:
     """
     rows = motors() if known is None else known
     # Maker and model, as printed in a design and by shops.
-    behind_maker = {f"{each.maker} {each.name}": each for each in rows.values()}
-    return entry(rows, name, "motor", behind_maker)
+    by_maker_and_name = {f"{motor.maker} {motor.name}": motor for motor in rows.values()}
+    return entry(rows, name, "motor", by_maker_and_name)
 
 
 def load_motors(path: Path) -> Mapping[str, Motor]:
@@ -523,14 +531,18 @@ def load_motors(path: Path) -> Mapping[str, Motor]:
     return MappingProxyType({name: sheet.motor() for name, sheet in _sheets(path).items()})
 
 
-def motor_doubts(path: Path) -> tuple[str, ...]:
+def implausible_values(path: Path) -> tuple[str, ...]:
     """Sentences on implausible values in a file of motors, each with its row and column.
 
     Raises:
         SpecificationError: see `load_entries`.
     """
     sheets = _sheets(path).items()
-    return tuple(f"{path}, {name}: {doubt}" for name, sheet in sheets for doubt in _doubts(sheet))
+    return tuple(
+        f"{path}, {name}: {doubt}"
+        for name, sheet in sheets
+        for doubt in _implausible_figures(sheet)
+    )
 
 
 def _sheets(path: Path) -> Mapping[str, MotorSheet]:
@@ -544,7 +556,7 @@ def _sheets(path: Path) -> Mapping[str, MotorSheet]:
     return load_entries(path, "motor", MotorSheet, _faults, lacks)
 
 
-def motors_to_json(found: Iterable[Motor], warnings: Iterable[str] = ()) -> bytes:
+def motors_to_json(motors: Iterable[Motor], warnings: Iterable[str] = ()) -> bytes:
     """Motors as indented UTF-8 JSON, SI, each with data missing for a direct drive and to build.
 
     Warnings about a user's file, one sentence each, are included.
@@ -555,6 +567,6 @@ def motors_to_json(found: Iterable[Motor], warnings: Iterable[str] = ()) -> byte
             "missing": missing_figures(motor, DIRECT),
             "build_gaps": build_gaps(motor),
         }
-        for motor in found
+        for motor in motors
     ]
     return to_json({"schema_version": 1, "motors": rows, "warnings": list(warnings)})

@@ -141,7 +141,7 @@ def positive(raw: object) -> float:
     return number
 
 
-def whole(raw: object) -> int:
+def positive_integer(raw: object) -> int:
     """A positive whole number."""
     number = positive(raw)
     if number != int(number):
@@ -196,7 +196,7 @@ def tooth_counts(raw: object) -> tuple[int, ...]:
 _READERS: Mapping[object, Reader] = {
     str: text,
     float: positive,
-    int: whole,
+    int: positive_integer,
     bool: switch,
     tuple[float, ...]: numbers,
     tuple[int, ...]: tooth_counts,
@@ -218,16 +218,16 @@ def columns_of(sheet: type) -> Mapping[str, Column]:
     others have columns of their own names. Where the type is not specific enough, the field names
     its reader: `Annotated[float, fraction]`. None means an omitted cell.
     """
-    kinds, found = get_type_hints(sheet), {}
+    kinds, columns = get_type_hints(sheet), {}
     for name, hint in get_type_hints(sheet, include_extras=True).items():
-        kind, stated = kinds[name], getattr(hint, "__metadata__", ())
+        kind, metadata = kinds[name], getattr(hint, "__metadata__", ())
         if get_origin(kind) in {Union, UnionType}:
             kind = get_args(kind)[0]
         is_words = isinstance(kind, type) and issubclass(kind, StrEnum)
-        readers = [*filter(callable, stated), choice(kind) if is_words else _READERS[kind]]
-        units = [mark.suffix for mark in stated if isinstance(mark, Unit)]
-        found["_".join([name, *units])] = Column(name, readers[0])
-    return found
+        readers = [*filter(callable, metadata), choice(kind) if is_words else _READERS[kind]]
+        units = [mark.suffix for mark in metadata if isinstance(mark, Unit)]
+        columns["_".join([name, *units])] = Column(name, readers[0])
+    return columns
 
 
 def _number(raw: object) -> float:
@@ -265,9 +265,11 @@ def entry(known: Mapping[str, T], name: str, kind: str, also: Mapping[str, T] | 
     if name in known:
         return known[name]
     for names in (known, also or {}):
-        alike = [row for each, row in names.items() if _letters(each) == _letters(name)]
-        if len(alike) == 1:
-            return alike[0]
+        matches = [
+            row for known_name, row in names.items() if _letters(known_name) == _letters(name)
+        ]
+        if len(matches) == 1:
+            return matches[0]
     if close := _closest(known, name):
         hint = f"Did you mean {' or '.join(close)}?"
     elif len(known) <= MOST_LISTED:
@@ -289,16 +291,25 @@ def _closest(known: Iterable[str], name: str) -> Sequence[str]:
     """
     words = [word for part in name.replace("-", " ").split() if (word := _letters(part))]
     # The maker's name may accompany the model's, which contains a digit.
-    for some in (words, [word for word in words if any(map(str.isdigit, word))][:1]):
-        holding = [each for each in known if all(word in _letters(each) for word in some)]
-        if some and holding:
-            return holding[:MOST_SUGGESTED]
-    if whole := closest(name, known, most=MOST_SUGGESTED):
-        return whole
-    models = {each[: len(name)].casefold() for each in known}
-    meant = closest(name, models, most=MOST_SUGGESTED, cutoff=_SAME_MODEL)
-    begun = [each for model in meant for each in known if each.casefold().startswith(model)]
-    return begun[:MOST_SUGGESTED]
+    for query in (words, [word for word in words if any(map(str.isdigit, word))][:1]):
+        containing = [
+            known_name
+            for known_name in known
+            if all(word in _letters(known_name) for word in query)
+        ]
+        if query and containing:
+            return containing[:MOST_SUGGESTED]
+    if close := closest(name, known, most=MOST_SUGGESTED):
+        return close
+    models = {known_name[: len(name)].casefold() for known_name in known}
+    close_models = closest(name, models, most=MOST_SUGGESTED, cutoff=_SAME_MODEL)
+    beginning = [
+        known_name
+        for model in close_models
+        for known_name in known
+        if known_name.casefold().startswith(model)
+    ]
+    return beginning[:MOST_SUGGESTED]
 
 
 class Named(Protocol):
@@ -332,30 +343,30 @@ def load_entries(
         SpecificationError: it cannot be read, or has faults, which are all listed.
     """
     faults: list[str] = []
-    found: dict[str, E] = {}
+    by_name: dict[str, E] = {}
     first: dict[str, str] = {}
-    twice: list[str] = []
+    duplicates: list[str] = []
     lacking: dict[str, str] = {}
     rows = read_rows(path, kind, faults)
     for row in rows:
         name = row.cells.get("name")
         where = f"{row.where} ({name})" if isinstance(name, str) else row.where
         if isinstance(name, str) and first.setdefault(name, row.where) != row.where:
-            twice.append(f"{row.where}: {name!r} is already the name of {first[name]}")
-        before = len(faults)
+            duplicates.append(f"{row.where}: {name!r} is already the name of {first[name]}")
+        fault_count = len(faults)
         values, unread = _read_cells(row, where, sheet, faults)
-        read = sheet(**values)
-        if len(faults) == before:
-            faults.extend(f"{where}: {fault}" for fault in faults_of(read))
+        item = sheet(**values)
+        if len(faults) == fault_count:
+            faults.extend(f"{where}: {fault}" for fault in faults_of(item))
         # An invalid number is reported as such, and not as missing too.
         lacking[where] = lacks(sheet(**values | dict.fromkeys(unread, 1)))
-        found[read.name] = read
-    faults += twice
+        by_name[item.name] = item
+    faults += duplicates
     if faults:
         count = "a fault" if len(faults) == 1 else f"{len(faults)} faults"
         faults += [f"{where}: {what}" for where, what in lacking.items() if what]
         raise SpecificationError(f"{path} has {count}:", problems=faults)
-    return _by_name(found)
+    return _by_name(by_name)
 
 
 def _read_cells(
@@ -368,7 +379,9 @@ def _read_cells(
     columns, values, unread = columns_of(sheet), {}, []
     for column, raw in row.cells.items():
         if column not in columns:
-            close = [each for each in columns if each.startswith(f"{column}_")][:1]
+            close = [
+                known_column for known_column in columns if known_column.startswith(f"{column}_")
+            ][:1]
             close = close or closest(column, columns)
             hint = f"Did you mean {close[0]}?" if close else f"Known: {', '.join(columns)}."
             faults.append(f"{where}, {column}: unknown column. {hint}")
@@ -377,7 +390,7 @@ def _read_cells(
             values[columns[column].field] = columns[column].read(raw)
         except ValueError as error:
             faults.append(f"{where}, {column}: {error}")
-            if columns[column].read in {positive, whole}:
+            if columns[column].read in {positive, positive_integer}:
                 unread.append(columns[column].field)
     required = {item.name for item in fields(sheet) if item.default is MISSING}
     missing = sorted(required - row.cells.keys())

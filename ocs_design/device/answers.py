@@ -177,7 +177,7 @@ class RecognitionRecord:
             forward=axis_name(rotation[:, 0]),
             left=axis_name(rotation[:, 1]),
             up=axis_name(rotation @ up),
-            stated=tuple(sorted(recognition.stated)),
+            stated=tuple(sorted(recognition.specified)),
             confidence=reading.confidence,
             speaks_for=tuple(sign.what for sign in reading.signs if sign.holds),
             speaks_against=(

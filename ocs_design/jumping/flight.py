@@ -85,14 +85,14 @@ class FreeRobot:
 
     def __init__(self, base: FloatingBase) -> None:
         unknown, known = base.a[:POSE], base.a[POSE:]
-        still = ca.substitute(
+        bias = ca.substitute(
             ca.vertcat(base.imbalance, base.torque),
             ca.vertcat(unknown, base.f),
             ca.SX.zeros(POSE + base.f.numel()),
         )
-        slope = ca.jacobian(ca.vertcat(base.imbalance, base.torque), unknown)
-        pose = ca.solve(slope[:POSE, :], -still[:POSE])
-        torque = still[POSE:] + slope[POSE:, :] @ pose
+        sensitivity = ca.jacobian(ca.vertcat(base.imbalance, base.torque), unknown)
+        pose = ca.solve(sensitivity[:POSE, :], -bias[:POSE])
+        torque = bias[POSE:] + sensitivity[POSE:, :] @ pose
         self._step = _runge_kutta(base, ca.vertcat(pose, torque), known)
         # Angular momentum is linear in the rates, which for a level trunk equal its angle rates.
         locked = ca.jacobian(base.spin, base.v[3:POSE])
@@ -117,17 +117,17 @@ class FreeRobot:
         """
         steps = int(np.ceil(legs.duration / _STEP))
         halves = legs.at(np.linspace(0.0, legs.duration, 2 * steps + 1))
-        given = np.hstack(halves)
+        joint_motion = np.hstack(halves)
         # An additional step gives the torque at the end.
-        given = np.vstack([given, given[-1:], given[-1:]]).T
+        joint_motion = np.vstack([joint_motion, joint_motion[-1:], joint_motion[-1:]]).T
         run = self._step.mapaccum("flight", steps + 1)
         start = np.append(y[:POSE], v[:POSE])
-        instants = [given[:, first : first + 2 * steps + 1 : 2] for first in range(3)]
-        found, torque = run(start, *instants, legs.duration / steps, load)
-        _, tilt, _, turning = np.split(np.asarray(found)[:, steps - 1], 4)
+        instants = [joint_motion[:, first : first + 2 * steps + 1 : 2] for first in range(3)]
+        states, torque = run(start, *instants, legs.duration / steps, load)
+        _, tilt, _, rate = np.split(np.asarray(states)[:, steps - 1], 4)
         time = np.linspace(0.0, legs.duration, steps + 1)
         # From then on no joint moves, and the remaining spin stays constant.
-        tilt = tilt + turning * (duration - legs.duration)
+        tilt = tilt + rate * (duration - legs.duration)
         return LegFlight(time, halves[0][::2], halves[1][::2], np.asarray(torque).T, tilt)
 
 
@@ -142,11 +142,13 @@ def _runge_kutta(base: FloatingBase, response: ca.SX, known: ca.SX) -> ca.Functi
     inputs = [state, given, base.load.packed()]
     change = ca.vertcat(base.v[:POSE], response[:POSE])
     rates = ca.Function("rates", inputs, [change, response[POSE:]])
-    now, load, h = ca.MX.sym("now", 2 * POSE), ca.MX.sym("load", inputs[2].numel()), ca.MX.sym("h")
+    current = ca.MX.sym("now", 2 * POSE)
+    load = ca.MX.sym("load", inputs[2].numel())
+    h = ca.MX.sym("h")
     start, middle, end = (ca.MX.sym(name, given.numel()) for name in ("start", "middle", "end"))
-    first, torque = rates(now, start, load)
-    second, _ = rates(now + h / 2.0 * first, middle, load)
-    third, _ = rates(now + h / 2.0 * second, middle, load)
-    fourth, _ = rates(now + h * third, end, load)
-    ahead = now + h / 6.0 * (first + 2.0 * second + 2.0 * third + fourth)
-    return ca.Function("step", [now, start, middle, end, h, load], [ahead, torque])
+    first, torque = rates(current, start, load)
+    second, _ = rates(current + h / 2.0 * first, middle, load)
+    third, _ = rates(current + h / 2.0 * second, middle, load)
+    fourth, _ = rates(current + h * third, end, load)
+    next_state = current + h / 6.0 * (first + 2.0 * second + 2.0 * third + fourth)
+    return ca.Function("step", [current, start, middle, end, h, load], [next_state, torque])

@@ -265,19 +265,21 @@ def _leg_state(
     for link in links:
         force, up = link.rotation.T @ force, link.rotation.T @ up
     contact = _constant(leg.foot) - leg.foot_radius * up
-    beyond = _Wrench(-force, -ca.cross(contact, force))
+    outboard = _Wrench(-force, -ca.cross(contact, force))
     momentum, mass_moment = _Wrench(ca.SX.zeros(3), ca.SX.zeros(3)), ca.SX.zeros(3)
     torques: list[ca.SX] = []
     # From the foot inwards: each joint carries everything beyond it.
     for link, mass, joint in reversed(list(zip(links, leg.bodies, leg.chain.joints, strict=True))):
-        own = SymbolicBody(ca.SX(mass.mass), _constant(mass.com), _constant(mass.inertia))
-        beyond = beyond + _inertial_wrench(own, link.motion)
-        momentum = momentum + _momentum(own, link.motion)
-        mass_moment = mass_moment + own.mass * (link.origin + link.placement @ own.com)
+        properties = SymbolicBody(ca.SX(mass.mass), _constant(mass.com), _constant(mass.inertia))
+        outboard = outboard + _inertial_wrench(properties, link.motion)
+        momentum = momentum + _momentum(properties, link.motion)
+        mass_moment = mass_moment + properties.mass * (
+            link.origin + link.placement @ properties.com
+        )
         slides = joint.kind is JointKind.PRISMATIC
-        borne = beyond.force if slides else beyond.moment
-        torques.insert(0, ca.dot(_constant(joint.axis), borne))
-        beyond = beyond.in_parent(link.rotation, link.offset)
+        carried_load = outboard.force if slides else outboard.moment
+        torques.insert(0, ca.dot(_constant(joint.axis), carried_load))
+        outboard = outboard.in_parent(link.rotation, link.offset)
         momentum = momentum.in_parent(link.rotation, link.offset)
     # Torque that the drives lose in the joints themselves.
     _, velocity, acceleration = joints
@@ -293,7 +295,7 @@ def _leg_state(
     axis = hip.placement @ _constant(leg.chain.joints[leg.hip].axis)
     return _LegState(
         torque=ca.vertcat(*torques) + ca.vertcat(*resistance),
-        load=beyond,
+        load=outboard,
         momentum=momentum,
         mass_moment=mass_moment,
         foot=foot,

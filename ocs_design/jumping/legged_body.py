@@ -64,7 +64,7 @@ class LeggedBody:
         tree = robot.tree
         index = {body.name: i for i, body in enumerate(tree.bodies)}
         # Mass properties by index of the body that carries them; -1 is the trunk, in B.
-        in_chain = {index[body.name] for each in geometries for body in each.chain.bodies}
+        in_chain = {index[body.name] for geometry in geometries for body in geometry.chain.bodies}
         placements = tree.placements_from(robot.trunk, robot.posture)
         carried: dict[int, list[MassProperties]] = {-1: []}
         for i, body in enumerate(tree.bodies):
@@ -77,14 +77,14 @@ class LeggedBody:
         masses = {carrier: combine(parts) for carrier, parts in carried.items()}
         legs = tuple(
             JumpingLeg(
-                chain=each.chain,
-                bodies=tuple(masses[index[body.name]] for body in each.chain.bodies),
-                foot=each.leg.foot,
-                foot_radius=each.leg.foot_radius,
-                hip=each.chain.driven[each.plane.pitch[0]],
-                length=each.leg.length,
+                chain=geometry.chain,
+                bodies=tuple(masses[index[body.name]] for body in geometry.chain.bodies),
+                foot=geometry.leg.foot,
+                foot_radius=geometry.leg.foot_radius,
+                hip=geometry.chain.driven[geometry.plane.pitch[0]],
+                length=geometry.leg.length,
             )
-            for each in geometries
+            for geometry in geometries
         )
         joints = tuple(joint for leg in legs for joint in leg.chain.joints)
         assert robot.standing_height is not None
@@ -122,11 +122,11 @@ def obstacle_to_jumping(robot: Robot) -> str:
         return "the robot has no legs"
     if up_axis(robot.tree, robot.trunk, robot.legs)[2] != 1.0:
         return "the legs do not hang along -z of the trunk frame"
-    for each in leg_geometries(robot.tree, robot.trunk, robot.legs):
-        leg, joints, obstacle = f"the leg '{each.leg.name}'", each.chain.joints, ""
-        if is_wheel(each.chain.bodies[-1]):
+    for geometry in leg_geometries(robot.tree, robot.trunk, robot.legs):
+        leg, joints, obstacle = f"the leg '{geometry.leg.name}'", geometry.chain.joints, ""
+        if is_wheel(geometry.chain.bodies[-1]):
             obstacle = f"{leg} ends in a wheel"
-        elif each.plane.flat:
+        elif geometry.plane.flat:
             obstacle = f"{leg} stands on a sole, not on a point"
         elif any(joint.mimic is not None for joint in joints):
             obstacle = f"{leg} has coupled joints"

@@ -171,8 +171,8 @@ class Node:
         )
         # Joint values over their limits, in both directions, for joints with limits, shape (m, n).
         efforts, velocities = (
-            _sparse(np.kron(np.diag(1.0 / each)[np.isfinite(each)], [[1.0], [-1.0]]))
-            for each in limits
+            _sparse(np.kron(np.diag(1.0 / limit)[np.isfinite(limit)], [[1.0], [-1.0]]))
+            for limit in limits
         )
         # Forces outside the pyramid inscribed in the friction cone, shape (4 legs, 3 legs).
         side = FRICTION / np.sqrt(2.0)
@@ -231,14 +231,14 @@ def _slips(body: LeggedBody, base: FloatingBase) -> ca.SX:
     """
     rows: list[ca.SX] = []
     standing = np.concatenate([[0.0, 0.0, body.height, 0.0, 0.0, 0.0], body.posture])
-    found = ca.Function("stance", [base.y], [*base.feet, *base.shanks])(standing)
+    stance = ca.Function("stance", [base.y], [*base.feet, *base.shanks])(standing)
     count = len(body.legs)
     for i, leg in enumerate(body.legs):
-        turn = base.shanks[i] @ found[count + i].T
+        turn = base.shanks[i] @ stance[count + i].T
         about_y = ca.atan2(turn[0, 2] - turn[2, 0], turn[0, 0] + turn[2, 2])
         about_x = ca.atan2(turn[2, 1] - turn[1, 2], turn[1, 1] + turn[2, 2])
         rolled = leg.foot_radius * ca.vertcat(about_y, -about_x, 0.0)
-        rows.append(base.feet[i] - found[i] - rolled)
+        rows.append(base.feet[i] - stance[i] - rolled)
     return ca.vertcat(*rows)
 
 

@@ -62,13 +62,13 @@ class JumpPlanning:
     """
 
     def __init__(self, robot: Robot, maneuvers: Sequence[Maneuver]) -> None:
-        asked = [(each, jump_of(each)) for each in maneuvers]
-        self._jumps = [(each, jump) for each, jump in asked if jump is not None]
+        jumps = [(maneuver, jump_of(maneuver)) for maneuver in maneuvers]
+        self._jumps = [(maneuver, jump) for maneuver, jump in jumps if jump is not None]
         self._obstacle = obstacle_to_jumping(robot) if self._jumps else ""
         self._bare: dict[Jump, Future[PlannedJump]] = {}
         self._carrying: dict[str, Future[PlannedJump]] = {}
-        different = {jump for _, jump in self._jumps}
-        self._threads = ThreadPoolExecutor(min(max(len(different), 1), cpu_count() or 1))
+        distinct = {jump for _, jump in self._jumps}
+        self._threads = ThreadPoolExecutor(min(max(len(distinct), 1), cpu_count() or 1))
         if self._jumps and not self._obstacle:
             self._body = LeggedBody.of(robot)
             self._planner = self._threads.submit(JumpPlanner, self._body)
@@ -88,20 +88,21 @@ class JumpPlanning:
 
     def plans(self) -> Mapping[str, JumpPlans]:
         """All plans by maneuver name; waits until they are done."""
-        found: dict[str, JumpPlans] = {}
-        for each, jump in self._jumps:
+        by_name: dict[str, JumpPlans] = {}
+        for maneuver, jump in self._jumps:
             if self._obstacle:
-                found[each.name] = _both(f"{_FALLBACK}: {self._obstacle}")
+                by_name[maneuver.name] = _no_push_off(f"{_FALLBACK}: {self._obstacle}")
                 continue
-            carrying, bare = self._carrying[each.name].result().plan, self._bare[jump].result().plan
+            carrying = self._carrying[maneuver.name].result().plan
+            bare = self._bare[jump].result().plan
             if carrying.legs is not None and bare.legs is not None:
-                found[each.name] = JumpPlans(carrying, bare)
+                by_name[maneuver.name] = JumpPlans(carrying, bare)
                 continue
-            whose, failed = ("legs", carrying) if carrying.legs is None else (_BARE_LEGS, bare)
-            note = f"{_FALLBACK}, because the {whose} cannot make this jump: {failed.note}"
-            found[each.name] = _both(note)
+            legs_text, failed = ("legs", carrying) if carrying.legs is None else (_BARE_LEGS, bare)
+            note = f"{_FALLBACK}, because the {legs_text} cannot make this jump: {failed.note}"
+            by_name[maneuver.name] = _no_push_off(note)
         self._threads.shutdown()
-        return found
+        return by_name
 
     def cancel(self) -> None:
         """Start no further plans."""
@@ -115,7 +116,7 @@ class JumpPlanning:
         return self._planner.result().plan(jump, trunk, similar=known)
 
 
-def _both(note: str) -> JumpPlans:
+def _no_push_off(note: str) -> JumpPlans:
     """Plans without a push-off, with and without the device, for the same reason."""
     return JumpPlans(JumpPlan(None, note), JumpPlan(None, note))
 

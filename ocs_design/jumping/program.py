@@ -24,11 +24,11 @@ _PENALTY = 1000.0
 is otherwise impossible."""
 
 
-_MUMPS: dict[str, Any] = {"ipopt.mumps_pivot_order": 5, "ipopt.mumps_permuting_scaling": 0}
+_MUMPS_OPTIONS: dict[str, Any] = {"ipopt.mumps_pivot_order": 5, "ipopt.mumps_permuting_scaling": 0}
 """METIS elimination order, no permutation for scaling, since everything is of order one. Fewer
 matrices appear singular, which halves the time and saves a third of the iterations."""
 
-_WARM: dict[str, Any] = {
+_WARM_START_OPTIONS: dict[str, Any] = {
     "ipopt.warm_start_init_point": "yes",
     "ipopt.warm_start_bound_push": 1e-6,
     "ipopt.warm_start_mult_bound_push": 1e-6,
@@ -55,8 +55,8 @@ class PushOffSolution:
     torque: FloatArray
     excess: FloatArray
     x: FloatArray
-    on_bounds: FloatArray
-    on_rows: FloatArray
+    bound_multipliers: FloatArray
+    row_multipliers: FloatArray
     solved: bool
 
 
@@ -72,41 +72,48 @@ class Program:
         z, excess = ca.reshape(flat[:-_EXCESS], size, NODES), flat[-_EXCESS:]
         last = z[:, -1]
 
-        goal = ca.dot(weights, pieces["cost"].map(NODES)(z, load)) + _PENALTY * ca.sum1(excess)
-        climbs = pieces["cost_slope"].map(NODES)(z, load) * ca.repmat(weights, size, 1)
+        objective = ca.dot(weights, pieces["cost"].map(NODES)(z, load)) + _PENALTY * ca.sum1(excess)
+        weighted_slopes = pieces["cost_slope"].map(NODES)(z, load) * ca.repmat(weights, size, 1)
         # IPOPT needs a dense gradient, whatever its sparsity.
-        gradient = ca.densify(ca.vertcat(ca.vec(climbs), _PENALTY * ca.DM.ones(_EXCESS)))
+        gradient = ca.densify(ca.vertcat(ca.vec(weighted_slopes), _PENALTY * ca.DM.ones(_EXCESS)))
 
-        kept = rows.selection @ ca.vec(pieces["rows"].map(NODES)(z, load)) + rows.overdrawn @ excess
-        constraints = ca.vertcat(rows.defects @ flat, kept, pieces["end"](last, load))
+        node_rows = (
+            rows.selection @ ca.vec(pieces["rows"].map(NODES)(z, load)) + rows.relaxation @ excess
+        )
+        constraints = ca.vertcat(rows.defects @ flat, node_rows, pieces["end"](last, load))
         slopes = ca.diagcat(*ca.horzsplit(pieces["slope"].map(NODES)(z, load), size))
         end_slope = pieces["end_slope"](last, load)
         before, after = (ca.MX(end_slope.size1(), count) for count in (size * (NODES - 1), _EXCESS))
         jacobian = ca.vertcat(
             rows.defects,
-            ca.horzcat(rows.selection @ slopes, rows.overdrawn),
+            ca.horzcat(rows.selection @ slopes, rows.relaxation),
             ca.horzcat(before, end_slope, after),
         )
 
-        on_goal, on_rows = ca.MX.sym("on_goal"), ca.MX.sym("on_rows", constraints.numel())
-        _, on_kept, on_end = ca.vertsplit(
-            on_rows, [0, rows.defects.size1(), len(rows.lower), constraints.numel()]
+        objective_multiplier = ca.MX.sym("on_goal")
+        row_multipliers = ca.MX.sym("on_rows", constraints.numel())
+        _, node_row_multipliers, end_multipliers = ca.vertsplit(
+            row_multipliers, [0, rows.defects.size1(), len(rows.lower), constraints.numel()]
         )
-        on_nodes = ca.reshape(rows.selection.T @ on_kept, -1, NODES)
-        bent = pieces["curvature"].map(NODES)(z, load, on_nodes, on_goal * weights)
-        blocks = ca.horzsplit(bent, size)
-        blocks[-1] += pieces["end_curvature"](last, load, on_end)
+        node_multipliers = ca.reshape(rows.selection.T @ node_row_multipliers, -1, NODES)
+        curvature = pieces["curvature"].map(NODES)(
+            z, load, node_multipliers, objective_multiplier * weights
+        )
+        blocks = ca.horzsplit(curvature, size)
+        blocks[-1] += pieces["end_curvature"](last, load, end_multipliers)
         hessian = ca.diagcat(*blocks, ca.MX(_EXCESS, _EXCESS))
         self._options: dict[str, Any] = {
             **IPOPT_OPTIONS,
-            **_MUMPS,
+            **_MUMPS_OPTIONS,
             "ipopt.tol": _TOLERANCE,
             "ipopt.max_iter": _ITERATIONS_MAX,
-            "grad_f": ca.Function("grad_f", [flat, load], [goal, gradient]),
+            "grad_f": ca.Function("grad_f", [flat, load], [objective, gradient]),
             "jac_g": ca.Function("jac_g", [flat, load], [constraints, jacobian]),
-            "hess_lag": ca.Function("hess_lag", [flat, load, on_goal, on_rows], [hessian]),
+            "hess_lag": ca.Function(
+                "hess_lag", [flat, load, objective_multiplier, row_multipliers], [hessian]
+            ),
         }
-        self._nlp = {"x": flat, "p": load, "f": goal, "g": constraints}
+        self._nlp = {"x": flat, "p": load, "f": objective, "g": constraints}
 
     def solve(
         self,
@@ -126,29 +133,33 @@ class Program:
         """
         rows, options = self._rows, self._options
         if isinstance(start, PushOffSolution):
-            options = options | _WARM
-            begin = {"x0": start.x, "lam_x0": start.on_bounds, "lam_g0": start.on_rows}
+            options = options | _WARM_START_OPTIONS
+            start_values = {
+                "x0": start.x,
+                "lam_x0": start.bound_multipliers,
+                "lam_g0": start.row_multipliers,
+            }
         else:
-            begin = {"x0": np.append(start.ravel("F"), np.full(_EXCESS, 0.5))}
+            start_values = {"x0": np.append(start.ravel("F"), np.full(_EXCESS, 0.5))}
         # A solver keeps the statistics of one call, so each call has its own solver.
         solver = ca.nlpsol("push_off", "ipopt", self._nlp, options)
-        found = solver(
-            **begin,
+        result = solver(
+            **start_values,
             lbx=np.append(lower.ravel("F"), np.zeros(_EXCESS)),
             ubx=np.append(upper.ravel("F"), np.full(_EXCESS, np.inf)),
             lbg=np.concatenate([rows.lower, end]),
             ubg=np.concatenate([rows.upper, end]),
             p=load,
         )
-        x = np.asarray(found["x"]).ravel()
+        x = np.asarray(result["x"]).ravel()
         nodes = x[:-_EXCESS].reshape(lower.shape, order="F")
         return PushOffSolution(
             nodes=nodes,
             torque=np.asarray(self._torque(nodes, load)),
             excess=x[-_EXCESS:],
             x=x,
-            on_bounds=np.asarray(found["lam_x"]).ravel(),
-            on_rows=np.asarray(found["lam_g"]).ravel(),
+            bound_multipliers=np.asarray(result["lam_x"]).ravel(),
+            row_multipliers=np.asarray(result["lam_g"]).ravel(),
             solved=bool(solver.stats()["success"]),
         )
 
@@ -160,13 +171,13 @@ class _Rows:
     Attributes:
         defects: matrix of the spline conditions between nodes.
         selection: matrix that selects, from the rows of all nodes, those that hold there.
-        overdrawn: matrix by which each `SoftLimit`'s excess relaxes the selected rows.
+        relaxation: matrix by which each `SoftLimit`'s excess relaxes the selected rows.
         lower, upper: of all rows.
     """
 
     defects: ca.DM
     selection: ca.DM
-    overdrawn: ca.DM
+    relaxation: ca.DM
     lower: FloatArray
     upper: FloatArray
 
@@ -174,10 +185,10 @@ class _Rows:
     def of(cls, node: Node) -> "_Rows":
         """Rows of all nodes."""
         counts = [block.fold.size1() for block in node.blocks]
-        holds = np.zeros((NODES, sum(counts)), dtype=bool)
+        active = np.zeros((NODES, sum(counts)), dtype=bool)
         for block, last in zip(node.blocks, np.cumsum(counts), strict=True):
-            holds[block.first : block.stop, last - block.fold.size1() : last] = True
-        kept = np.flatnonzero(holds)
+            active[block.first : block.stop, last - block.fold.size1() : last] = True
+        kept = np.flatnonzero(active)
         lower, upper, limit = (
             np.tile(np.repeat([getattr(b, name) for b in node.blocks], counts), NODES)[kept]
             for name in ("lower", "upper", "limit")
@@ -188,21 +199,21 @@ class _Rows:
         flat = ca.MX.sym("x", layout.size * NODES + _EXCESS)
         z = ca.reshape(flat[:-_EXCESS], layout.size, NODES)
         y, v, a, duration = (z[part, :] for part in (layout.y, layout.v, layout.a, layout.duration))
-        ahead, here = slice(1, None), slice(None, -1)
-        joined = ca.veccat(
-            v[:, ahead] - v[:, here] - step / 2.0 * (a[:, here] + a[:, ahead]),
-            y[:, ahead]
-            - y[:, here]
-            - step * v[:, here]
-            - step**2 / 6.0 * (2.0 * a[:, here] + a[:, ahead]),
-            duration[:, ahead] - duration[:, here],
+        later, earlier = slice(1, None), slice(None, -1)
+        continuity = ca.veccat(
+            v[:, later] - v[:, earlier] - step / 2.0 * (a[:, earlier] + a[:, later]),
+            y[:, later]
+            - y[:, earlier]
+            - step * v[:, earlier]
+            - step**2 / 6.0 * (2.0 * a[:, earlier] + a[:, later]),
+            duration[:, later] - duration[:, earlier],
         )
-        defects, charged = ca.evalf(ca.jacobian(joined, flat)), np.flatnonzero(limit >= 0)
+        defects, relaxed = ca.evalf(ca.jacobian(continuity, flat)), np.flatnonzero(limit >= 0)
         tight = np.zeros(defects.size1())
         return cls(
             defects,
-            selection=_ones(np.arange(len(kept)), kept, (len(kept), holds.size)),
-            overdrawn=-_ones(charged, limit[charged], (len(kept), _EXCESS)),
+            selection=_ones(np.arange(len(kept)), kept, (len(kept), active.size)),
+            relaxation=-_ones(relaxed, limit[relaxed], (len(kept), _EXCESS)),
             lower=np.append(tight, lower),
             upper=np.append(tight, upper),
         )
@@ -221,32 +232,35 @@ def _pieces(node: Node) -> dict[str, ca.Function]:
         rows and cost, weighted by multipliers. `end`, `end_slope` and `end_curvature`: the same for
         the rows that only the last node has.
     """
-    z, given = node.unknowns, [node.unknowns, node.load]
+    z, inputs = node.unknowns, [node.unknowns, node.load]
     rows = [block.fold @ block.values for block in node.blocks]
     slopes = [block.fold @ ca.jacobian(block.values, z) for block in node.blocks]
     residuals = ca.vertcat(*node.residuals)
-    steep = ca.vertcat(*(ca.jacobian(each, z) for each in node.residuals))
+    residual_jacobian = ca.vertcat(*(ca.jacobian(residual, z) for residual in node.residuals))
     cost = ca.sumsqr(residuals)
-    on_rows = [ca.SX.sym("on_rows", block.fold.size1()) for block in node.blocks]
-    on_residuals, on_cost = ca.SX.sym("on_residuals", residuals.numel()), ca.SX.sym("on_cost")
-    linear = ca.dot(on_residuals, residuals)
-    for block, on in zip(node.blocks, on_rows, strict=True):
-        linear += ca.dot(block.fold.T @ on, block.values)
-    bent = ca.substitute(ca.hessian(linear, z)[0], on_residuals, 2.0 * on_cost * residuals)
-    on_end = ca.SX.sym("on_end", node.end.numel())
-    end_bent = ca.hessian(ca.dot(on_end, node.end), z)[0]
+    row_multipliers = [ca.SX.sym("on_rows", block.fold.size1()) for block in node.blocks]
+    residual_multipliers = ca.SX.sym("on_residuals", residuals.numel())
+    cost_multiplier = ca.SX.sym("on_cost")
+    linear = ca.dot(residual_multipliers, residuals)
+    for block, multipliers in zip(node.blocks, row_multipliers, strict=True):
+        linear += ca.dot(block.fold.T @ multipliers, block.values)
+    curvature = ca.substitute(
+        ca.hessian(linear, z)[0], residual_multipliers, 2.0 * cost_multiplier * residuals
+    )
+    end_multipliers = ca.SX.sym("on_end", node.end.numel())
+    end_curvature = ca.hessian(ca.dot(end_multipliers, node.end), z)[0]
     functions = {
-        "rows": (given, ca.vertcat(*rows)),
-        "slope": (given, ca.vertcat(*slopes)),
-        "cost": (given, cost),
-        "cost_slope": (given, ca.gradient(cost, z)),
+        "rows": (inputs, ca.vertcat(*rows)),
+        "slope": (inputs, ca.vertcat(*slopes)),
+        "cost": (inputs, cost),
+        "cost_slope": (inputs, ca.gradient(cost, z)),
         "curvature": (
-            [*given, ca.vertcat(*on_rows), on_cost],
-            ca.triu(bent + 2.0 * on_cost * (steep.T @ steep)),
+            [*inputs, ca.vertcat(*row_multipliers), cost_multiplier],
+            ca.triu(curvature + 2.0 * cost_multiplier * (residual_jacobian.T @ residual_jacobian)),
         ),
-        "end": (given, node.end),
-        "end_slope": (given, ca.jacobian(node.end, z)),
-        "end_curvature": ([*given, on_end], ca.triu(end_bent)),
+        "end": (inputs, node.end),
+        "end_slope": (inputs, ca.jacobian(node.end, z)),
+        "end_curvature": ([*inputs, end_multipliers], ca.triu(end_curvature)),
     }
     return {name: ca.Function(name, i, [o]) for name, (i, o) in functions.items()}
 

@@ -36,7 +36,7 @@ _TILT = 0.3
 _WINDING = 6.0
 """Largest angle of joints without limits [rad]."""
 
-_OVERDRAWN = 1e-3
+_LIMIT_TOLERANCE = 1e-3
 """Share by which a limit may be exceeded and still counts as kept."""
 
 
@@ -64,7 +64,7 @@ class PushOff:
 
     def joints_at(self, times: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Positions and velocities of the joints on the cubic splines, shape (len(times), n)."""
-        y, v, a = (each[:, POSE:] for each in (self.y, self.v, self.a))
+        y, v, a = (values[:, POSE:] for values in (self.y, self.v, self.a))
         jerk = np.diff(a, axis=0) / np.diff(self.time)[:, None]
         spline = PPoly(np.array([jerk / 6.0, a[:-1] / 2.0, v[:-1], y[:-1]]), self.time)
         return np.asarray(spline(times)), np.asarray(spline(times, 1))
@@ -107,22 +107,22 @@ class PushOffs:
         turning = np.zeros(3) if spin is None else spin / (mass * unit * body.length)
         end = np.concatenate([velocity, turning])
         bounds = lower, upper, end, Load.values(jump.gravity, trunk)
-        found = None if similar is None else self._program.solve(similar.answer, *bounds)
-        if found is None or not found.solved:
+        solution = None if similar is None else self._program.solve(similar.answer, *bounds)
+        if solution is None or not solution.solved:
             guess = _initial_guess(body, layout, jump.gravity, duration, height)
-            begin = np.clip(guess, lower, upper)
-            found = self._program.solve(begin, *bounds)
-        z = found.nodes
+            start = np.clip(guess, lower, upper)
+            solution = self._program.solve(start, *bounds)
+        z = solution.nodes
         duration = z[layout.duration, -1]
         return PushOff(
             time=SHARES * duration,
             y=z[layout.y].T,
             v=z[layout.v].T / duration,
             a=z[layout.a].T / duration**2,
-            torque=found.torque.T,
+            torque=solution.torque.T,
             force=z[layout.f].T.reshape(NODES, -1, 3) * (mass * jump.gravity),
-            forbidden=_exceeded_limits(body, layout, found),
-            answer=found,
+            forbidden=_exceeded_limits(body, layout, solution),
+            answer=solution,
         )
 
 
@@ -155,19 +155,19 @@ def _initial_guess(
     body: LeggedBody, layout: NodeLayout, gravity: float, duration: float, height: FloatArray
 ) -> FloatArray:
     """Initial guess of the unknowns: level trunk over fixed feet, shape (size, nodes)."""
-    found = np.zeros((layout.size, NODES))
-    found[2] = body.height + height
+    guess = np.zeros((layout.size, NODES))
+    guess[2] = body.height + height
     for leg, where in body.joint_slices:
         rows = slice(POSE + where.start, POSE + where.stop)
-        lifts = body.height - found[2]
-        found[rows] = lifted(leg.chain, leg.foot, leg.length, body.posture[where], lifts).T
+        lifts = body.height - guess[2]
+        guess[rows] = lifted(leg.chain, leg.foot, leg.length, body.posture[where], lifts).T
     # From rest, with a natural end.
-    spline = CubicSpline(SHARES, found[layout.y], axis=1, bc_type=("clamped", "natural"))
-    found[layout.v], found[layout.a] = spline(SHARES, 1), spline(SHARES, 2)
-    rising = found[layout.a][2] / duration**2 / gravity
-    found[layout.f][2::3] = np.maximum(1.0 + rising, 0.2) / len(body.legs)
-    found[layout.duration] = duration
-    return found
+    spline = CubicSpline(SHARES, guess[layout.y], axis=1, bc_type=("clamped", "natural"))
+    guess[layout.v], guess[layout.a] = spline(SHARES, 1), spline(SHARES, 2)
+    rising = guess[layout.a][2] / duration**2 / gravity
+    guess[layout.f][2::3] = np.maximum(1.0 + rising, 0.2) / len(body.legs)
+    guess[layout.duration] = duration
+    return guess
 
 
 def _bounds_of_unknowns(
@@ -193,29 +193,29 @@ def _bounds_of_unknowns(
     return lower, upper
 
 
-def _exceeded_limits(body: LeggedBody, layout: NodeLayout, found: PushOffSolution) -> str:
+def _exceeded_limits(body: LeggedBody, layout: NodeLayout, solution: PushOffSolution) -> str:
     """Limits that the push-off exceeds, and by how much, as text; empty if none."""
-    duration, sentences = found.nodes[layout.duration, -1], []
-    speed = found.nodes[layout.v][-layout.joints :] / duration
+    duration, sentences = solution.nodes[layout.duration, -1], []
+    speed = solution.nodes[layout.v][-layout.joints :] / duration
     # Units for hinges and for slides.
     for limit, quantity, name, units, values in (
-        (SoftLimit.TORQUE, "torque", "effort", ("N m", "N"), found.torque),
+        (SoftLimit.TORQUE, "torque", "effort", ("N m", "N"), solution.torque),
         (SoftLimit.SPEED, "speed", "velocity", ("rad/s", "m/s"), speed),
     ):
-        if found.excess[limit] <= _OVERDRAWN:
+        if solution.excess[limit] <= _LIMIT_TOLERANCE:
             continue
         limits = np.array([limit_or_inf(getattr(joint, name)) for joint in body.joints])
         # The joint that needs the largest share of its limit, and when; the last of equal ones.
         share = np.abs(values) / limits[:, None]
-        row, instant = np.argwhere(share >= (1.0 - _OVERDRAWN) * share.max())[-1]
+        row, instant = np.argwhere(share >= (1.0 - _LIMIT_TOLERANCE) * share.max())[-1]
         joint, time = body.joints[row], duration * float(SHARES[instant])
         unit = units[joint.kind is JointKind.PRISMATIC]
         sentences.append(
             f"the {quantity} of joint '{joint.name}' would be {abs(values[row, instant]):.3g} "
             f"{unit} at {time:.3g} s, more than its {limits[row]:.3g} {unit}"
         )
-    if found.excess[SoftLimit.FRICTION] > _OVERDRAWN:
+    if solution.excess[SoftLimit.FRICTION] > _LIMIT_TOLERANCE:
         sentences.append(f"the feet would need a coefficient of friction above {FRICTION}")
-    if not sentences and not found.solved:
+    if not sentences and not solution.solved:
         return "no push-off was found within the legs' reach"
     return "; ".join(sentences)

@@ -11,7 +11,7 @@ from ocs_design.actuation.motor import DIRECT, Gear, Motor, build_gaps
 from ocs_design.actuation.supply import Supply
 from ocs_design.catalogue.gears import known_gears, named_stages, stages
 from ocs_design.catalogue.materials import Material, material, strong_materials
-from ocs_design.catalogue.motors import known_motors, load_motors, motor, motor_doubts
+from ocs_design.catalogue.motors import implausible_values, known_motors, load_motors, motor
 from ocs_design.common.errors import SpecificationError
 from ocs_design.requirement.device_sections import MotorSection
 from ocs_design.requirement.specification import Specification
@@ -205,7 +205,7 @@ def doubts_about_motors(specification: Specification) -> tuple[str, ...]:
         SpecificationError: the file cannot be read, or has faults.
     """
     file, name = _path(specification.motor.motors), specification.motor.name
-    return () if file is None or name == NO_MOTOR else motor_doubts(file)
+    return () if file is None or name == NO_MOTOR else implausible_values(file)
 
 
 def highest_known_voltage(specification: Specification) -> float:

@@ -16,7 +16,7 @@ from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.requirement import Requirement
 from ocs_design.requirement.resolving import Resolved, resolve
 from ocs_design.requirement.specification import Specification
-from ocs_design.robot.meshes import size
+from ocs_design.robot.meshes import longest_side
 from ocs_design.robot.robot import Robot
 
 
@@ -41,7 +41,7 @@ class Task:
         Raises:
             SpecificationError: see `resolve`.
         """
-        extent = size(robot.tree, robot.posture, robot.trunk)
+        extent = longest_side(robot.tree, robot.posture, robot.trunk)
         return cls(specification, resolve(specification, robot, extent), robot, extent)
 
     def with_specification(self, specification: Specification) -> "Task":

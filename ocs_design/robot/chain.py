@@ -17,13 +17,13 @@ from ocs_design.robot.tree import Body, Joint, JointKind, Tree
 
 _SWEEPS = 40
 
-_SHORT = 0.5
+_STRETCHED_SHARE = 0.5
 """Share of a limb's length below which the ascent may not have stretched it fully."""
 
-_TURNS = (0.5, -0.5)
+_RESTART_OFFSETS = (0.5, -0.5)
 """Offsets from zero at which the ascent restarts [rad]."""
 
-_FARTHER = 0.01
+_RESTART_GAIN = 0.01
 """Share of a limb's length by which a restart must be better, so that rounding does not decide."""
 
 
@@ -152,19 +152,19 @@ class Chain:
         Prismatic joints are not moved. A limb folded onto itself at zero is at a saddle point; if
         the first ascent leaves it short, it restarts with every joint turned.
         """
-        chosen = range(len(self.driven)) if movable is None else movable
+        columns = range(len(self.driven)) if movable is None else movable
         start = self.neutral()
-        best = self._ascended(local, direction, chosen, start)
-        whole = self.span(local)
-        before = self._reached(best, local, direction)
-        if before < _SHORT * whole:
-            for turn in _TURNS:
+        best = self._coordinate_ascent(local, direction, columns, start)
+        span = self.span(local)
+        extension = self._extension(best, local, direction)
+        if extension < _STRETCHED_SHARE * span:
+            for turn in _RESTART_OFFSETS:
                 turned = start.copy()
-                turned[list(chosen)] += turn
+                turned[list(columns)] += turn
                 turned = np.clip(turned, self.lower, self.upper)
-                again = self._ascended(local, direction, chosen, turned)
-                if self._reached(again, local, direction) > before + _FARTHER * whole:
-                    best, before = again, self._reached(again, local, direction)
+                restarted = self._coordinate_ascent(local, direction, columns, turned)
+                if self._extension(restarted, local, direction) > extension + _RESTART_GAIN * span:
+                    best, extension = restarted, self._extension(restarted, local, direction)
         return best
 
     def span(self, local: FloatArray) -> float:
@@ -172,13 +172,13 @@ class Chain:
         lengths = [np.linalg.norm(body.placement.position) for body in self.bodies[1:]]
         return float(sum(lengths) + np.linalg.norm(local))
 
-    def _reached(self, values: FloatArray, local: FloatArray, direction: FloatArray) -> float:
+    def _extension(self, values: FloatArray, local: FloatArray, direction: FloatArray) -> float:
         """Distance of a point of the last body from the first joint along `direction` [m]."""
         pose = self.pose(values)
         return float(direction @ (pose.point(local) - pose.origins[0]))
 
-    def _ascended(
-        self, local: FloatArray, direction: FloatArray, chosen: Sequence[int], start: FloatArray
+    def _coordinate_ascent(
+        self, local: FloatArray, direction: FloatArray, columns: Sequence[int], start: FloatArray
     ) -> FloatArray:
         """Values at which the ascent ends."""
         values = start.copy()
@@ -187,7 +187,7 @@ class Chain:
             pose = self.pose(values)
             tip = pose.point(local)
             # From the tip inwards, so that turning a joint does not move those still to be turned.
-            for column in reversed(chosen):
+            for column in reversed(columns):
                 row = self.driven[column]
                 if self.joints[row].kind is JointKind.PRISMATIC:
                     continue

@@ -28,7 +28,7 @@ def plausibility_warnings(
     trunk: str,
     legs: Sequence[Leg],
     posture: Mapping[str, float],
-    weighed: MassProperties,
+    properties: MassProperties,
 ) -> tuple[str, ...]:
     """Warnings of values that are possible, but probably not intended, one sentence each.
 
@@ -37,29 +37,31 @@ def plausibility_warnings(
         trunk: link whose frame is B.
         legs: as found; may be empty.
         posture: in which it stands.
-        weighed: the whole robot in that posture, in B.
+        properties: the whole robot in that posture, in B.
     """
     warnings = Warnings()
     # Quotients with a mass of 1e-300 kg are infinite, and are judged correctly.
     with np.errstate(all="ignore"):
-        radius, density = weighed.gyration_radius, ball_density(weighed)
-        stated = (
-            f"the robot weighs {weighed.mass:.3g} kg with a radius of gyration of {radius:.3g} m"
+        radius, density = properties.gyration_radius, ball_density(properties)
+        summary = (
+            f"the robot weighs {properties.mass:.3g} kg with a radius of gyration of {radius:.3g} m"
         )
         if density > DENSEST_ROBOT:
             warnings.add(
-                f"{stated}, as dense as solid metal: masses in grams, or lengths too small?"
+                f"{summary}, as dense as solid metal: masses in grams, or lengths too small?"
             )
         elif density < LIGHTEST_ROBOT:
-            warnings.add(f"{stated}, as light as air: lengths in millimetres, or masses in tonnes?")
+            warnings.add(
+                f"{summary}, as light as air: lengths in millimetres, or masses in tonnes?"
+            )
         for body in tree.bodies:
             _judge_body(body, warnings)
         _judge_mirror_images(tree, trunk, legs, warnings)
         for leg in legs:
-            most = EFFORT * weighed.mass * _GRAVITY * leg.length
+            effort_limit = EFFORT * properties.mass * _GRAVITY * leg.length
             for name in leg.joints:
                 joint = tree.joints[name]
-                if joint.kind is JointKind.REVOLUTE and most < joint.effort < np.inf:
+                if joint.kind is JointKind.REVOLUTE and effort_limit < joint.effort < np.inf:
                     warnings.add(
                         f"efforts over {EFFORT:.0f} times weight times leg length limit no jump: "
                         "specify the motors' limits",
@@ -88,29 +90,29 @@ DEGREES = (8.0 * np.pi, 1440.0)
 
 
 def _judge_body(body: Body, warnings: Warnings) -> None:
-    weighed, joint = body.mass_properties, body.joint
+    properties, joint = body.mass_properties, body.joint
     if joint is not None and joint.kind is JointKind.REVOLUTE:
-        fewest, most = DEGREES
-        if fewest < joint.upper - joint.lower <= most:
+        fewest, largest = DEGREES
+        if fewest < joint.upper - joint.lower <= largest:
             warnings.add("joints with a range of many turns: limits in degrees?", joint.name)
     # There is already a warning of mass properties that are not physical.
-    if weighed.mass == 0.0 or physical_defect(weighed) is not None:
+    if properties.mass == 0.0 or physical_defect(properties) is not None:
         return
     box = box_of(body)
     if box is None:
         return
-    for finding, figure in _contradictions(weighed, box):
+    for finding, figure in _contradictions(properties, box):
         warnings.add(finding, f"{body.name} ({figure})")
     if joint is not None and is_wheel(body):
-        across = np.linalg.svd(joint.axis[None])[2][1:]
-        moments = np.linalg.eigvalsh(across @ weighed.inertia @ across.T)
-        product = float(np.linalg.norm(across @ weighed.inertia @ joint.axis))
-        unround = max(float(moments[1] - moments[0]), product) / max(float(moments[1]), 1e-300)
-        if unround > LOPSIDED:
+        transverse = np.linalg.svd(joint.axis[None])[2][1:]
+        moments = np.linalg.eigvalsh(transverse @ properties.inertia @ transverse.T)
+        product = float(np.linalg.norm(transverse @ properties.inertia @ joint.axis))
+        asymmetry = max(float(moments[1] - moments[0]), product) / max(float(moments[1]), 1e-300)
+        if asymmetry > LOPSIDED:
             warnings.add(
                 "links that are round about their joint, but whose inertia is not: given in other "
                 "axes?",
-                f"{body.name} (by {unround:.0%})",
+                f"{body.name} (by {asymmetry:.0%})",
             )
 
 
@@ -200,14 +202,14 @@ it falls by as much when the parallel-axis term is removed."""
 _OTHER_AXES = "links whose inertia does not match their shapes' axes: given in other axes?"
 
 
-def _contradictions(weighed: MassProperties, box: Box) -> Iterator[tuple[str, str]]:
+def _contradictions(properties: MassProperties, box: Box) -> Iterator[tuple[str, str]]:
     """Contradictions between a body's mass properties and its box, each with its figure.
 
     Args:
-        weighed: physical, of a mass above zero, in the body's frame.
+        properties: physical, of a mass above zero, in the body's frame.
         box: of the body, in its frame.
     """
-    density = weighed.mass / box.volume
+    density = properties.mass / box.volume
     if density > STEEL:
         yield (
             "links heavier than their shapes in solid steel: masses in grams, or shapes too small?",
@@ -219,8 +221,8 @@ def _contradictions(weighed: MassProperties, box: Box) -> Iterator[tuple[str, st
             "or masses in tonnes?",
             f"{density:.2g} kg/m3",
         )
-    outside = float(np.maximum(box.lower - weighed.com, weighed.com - box.upper).max())
-    variances = mass_variances(weighed.inertia, weighed.mass)
+    outside = float(np.maximum(box.lower - properties.com, properties.com - box.upper).max())
+    variances = mass_variances(properties.inertia, properties.mass)
     excess = _excess(variances, box)
     share = _share(variances, box)
     if outside > OUTSIDE * box.sides.max():
@@ -229,7 +231,7 @@ def _contradictions(weighed: MassProperties, box: Box) -> Iterator[tuple[str, st
             "millimetres?",
             f"by {1e3 * outside:.3g} mm",
         )
-    elif _is_about_origin(weighed, box):
+    elif _is_about_origin(properties, box):
         yield (
             "links whose inertia is about their origin, not their centre of mass?",
             f"{share:.3g} times a solid box's",
@@ -237,8 +239,10 @@ def _contradictions(weighed: MassProperties, box: Box) -> Iterator[tuple[str, st
     elif excess > TOO_LARGE:
         # If any turn by right angles fits, wrong axes are the most likely mistake.
         orders = ([0, 2, 1], [2, 1, 0], [1, 0, 2], [1, 2, 0], [2, 0, 1])
-        turned = [weighed.inertia[np.ix_(order, order)] for order in orders]
-        fits = [_excess(mass_variances(each, weighed.mass), box) < TOO_LARGE for each in turned]
+        turned = [properties.inertia[np.ix_(order, order)] for order in orders]
+        fits = [
+            _excess(mass_variances(rotated, properties.mass), box) < TOO_LARGE for rotated in turned
+        ]
         yield (
             _OTHER_AXES
             if any(fits)
@@ -253,9 +257,9 @@ def _contradictions(weighed: MassProperties, box: Box) -> Iterator[tuple[str, st
             f"{share:.2g} times a solid box's",
         )
     else:
-        long = int(np.argmax(box.sides))
-        across = box.sides[long] > ELONGATED * box.sides
-        if (across & (variances > SWAPPED * variances[long])).any():
+        longest = int(np.argmax(box.sides))
+        transverse = box.sides[longest] > ELONGATED * box.sides
+        if (transverse & (variances > SWAPPED * variances[longest])).any():
             yield _OTHER_AXES, "most of it about the long side"
 
 
@@ -274,14 +278,16 @@ def _share(variances: FloatArray, box: Box) -> float:
     return float(variances.sum() / (box.sides @ box.sides / 12.0))
 
 
-def _is_about_origin(weighed: MassProperties, box: Box) -> bool:
+def _is_about_origin(properties: MassProperties, box: Box) -> bool:
     """Whether an inertia above a solid box's becomes plausible when moved to the centre of mass."""
-    offset = MassProperties(weighed.mass, weighed.com, np.zeros((3, 3))).inertia_about(np.zeros(3))
-    moved = MassProperties(weighed.mass, weighed.com, weighed.inertia - offset)
+    point_mass = MassProperties(properties.mass, properties.com, np.zeros((3, 3)))
+    offset = point_mass.inertia_about(np.zeros(3))
+    moved = MassProperties(properties.mass, properties.com, properties.inertia - offset)
     if physical_defect(moved) is not None:
         return False
     before, after = (
-        _share(mass_variances(each.inertia, each.mass), box) for each in (weighed, moved)
+        _share(mass_variances(mass_properties.inertia, mass_properties.mass), box)
+        for mass_properties in (properties, moved)
     )
     return before > SHIFTED and after < before / SHIFTED
 
@@ -342,7 +348,7 @@ def _judge_mirror_images(tree: Tree, trunk: str, legs: Sequence[Leg], warnings: 
     right = [side for side in sides if side.origins[0, 1] < 0.0]
     for one in left if len(left) == len(right) else ():
         # The leg whose hip is nearest to the mirror image's.
-        other = min(right, key=lambda each: _shift(each.origins[0], one.origins[0]))
+        other = min(right, key=lambda side: _shift(side.origins[0], one.origins[0]))
         if len(one.masses) != len(other.masses):
             names = f"{one.leg.name}, {other.leg.name}"
             warnings.add("legs left and right differ in their number of joints", names)

@@ -45,40 +45,43 @@ Ranges = Mapping[str, tuple[float, float]]
 def landing_ranges(robot: Robot) -> Ranges:
     """Ranges of the legs' joints in a landing: drives hold the nominal posture, but compliantly."""
     ranges: dict[str, tuple[float, float]] = {}
-    for each in leg_geometries(robot.tree, robot.trunk, robot.legs) if robot.legs else ():
-        pitch = [each.chain.names[column] for column in each.plane.pitch]
-        for name in each.leg.joints:
+    for geometry in leg_geometries(robot.tree, robot.trunk, robot.legs) if robot.legs else ():
+        pitch = [geometry.chain.names[column] for column in geometry.plane.pitch]
+        for name in geometry.leg.joints:
             give = PITCH_GIVE if name in pitch else GIVE
-            if not _turns(robot, name):
-                give = _SLIDE_GIVE * each.leg.length
+            if not _is_revolute(robot, name):
+                give = _SLIDE_GIVE * geometry.leg.length
             elif name in pitch[1:2]:
                 give = KNEE_GIVE
-            ranges[name] = _around(robot, name, give)
+            ranges[name] = _range_around(robot, name, give)
     return ranges
 
 
 def full_ranges(robot: Robot, names: Iterable[str]) -> Ranges:
     """Ranges of some joints up to their limits; hinges at most half a turn to each side."""
-    return {name: _around(robot, name, np.pi if _turns(robot, name) else np.inf) for name in names}
+    return {
+        name: _range_around(robot, name, np.pi if _is_revolute(robot, name) else np.inf)
+        for name in names
+    }
 
 
-def _turns(robot: Robot, name: str) -> bool:
+def _is_revolute(robot: Robot, name: str) -> bool:
     return robot.tree.joints[name].kind is JointKind.REVOLUTE
 
 
-def _around(robot: Robot, name: str, way: float) -> tuple[float, float]:
-    """Range of a joint, `way` to either side of the nominal posture, within its limits."""
+def _range_around(robot: Robot, name: str, deflection: float) -> tuple[float, float]:
+    """Range of a joint, `deflection` to either side of the nominal posture, within its limits."""
     joint, value = robot.tree.joints[name], robot.posture[name]
     # A posture may exceed a limit, and a slide may have none.
-    lower = min(max(joint.lower, value - way), value)
-    upper = max(min(joint.upper, value + way), value)
+    lower = min(max(joint.lower, value - deflection), value)
+    upper = max(min(joint.upper, value + deflection), value)
     return (
         float(lower if np.isfinite(lower) else value),
         float(upper if np.isfinite(upper) else value),
     )
 
 
-def drawn(ranges: Ranges, count: int = SAMPLES) -> Sequence[Posture]:
+def sampled_postures(ranges: Ranges, count: int = SAMPLES) -> Sequence[Posture]:
     """Random postures within the ranges, the same on each call; joints move independently."""
     if not ranges:
         return ()
@@ -90,7 +93,7 @@ def drawn(ranges: Ranges, count: int = SAMPLES) -> Sequence[Posture]:
 
 
 @dataclass(frozen=True, eq=False)
-class _Standing:
+class _StandingLeg:
     """A leg that stands on its foot.
 
     Attributes:
@@ -102,33 +105,33 @@ class _Standing:
     foot: CollisionBody
     above: tuple[CollisionBody, ...]
 
-    def holds(self, collision: CollisionModel, poses: GeomPoses) -> NDArray[np.bool_]:
+    def stands_in(self, collision: CollisionModel, poses: GeomPoses) -> NDArray[np.bool_]:
         """Whether in each posture no part of leg or trunk is lower than the foot, shape (n,).
 
         This must also hold for a robot tilted by `LANDING_TOLERANCE`.
         """
-        foot, found = collision.lowest(poses, self.foot), np.ones(len(poses.postures), dtype=bool)
+        foot, stands = collision.lowest(poses, self.foot), np.ones(len(poses.postures), dtype=bool)
         for part in self.above:
             off = foot - collision.lowest(poses, part)
-            found &= off[:, 2] <= np.tan(LANDING_TOLERANCE) * np.hypot(off[:, 0], off[:, 1])
-        return found
+            stands &= off[:, 2] <= np.tan(LANDING_TOLERANCE) * np.hypot(off[:, 0], off[:, 1])
+        return stands
 
 
 @lru_cache(maxsize=1)
-def standing_legs(collision: CollisionModel) -> tuple[_Standing, ...]:
+def standing_legs(collision: CollisionModel) -> tuple[_StandingLeg, ...]:
     """Legs whose feet are known, and on which the robot stands in the nominal posture."""
-    robot, found = collision.robot, []
+    robot, legs = collision.robot, []
     for leg in robot.legs:
         name = robot.tree.bodies[leg.body].name
         for foot in (part for part in collision.parts if part.name == name):
-            before = [each for each in collision.parts if each is not foot]
-            above = (each for each in before if foot.joints[: len(each.joints)] == each.joints)
-            shared = {joint for each in robot.legs if each is not leg for joint in each.joints}
-            own = tuple(joint for joint in leg.joints if joint not in shared)
-            stands = _Standing(own, foot, tuple(above))
-            if stands.holds(collision, collision.nominal).all():
-                found.append(stands)
-    return tuple(found)
+            others = [part for part in collision.parts if part is not foot]
+            above = (part for part in others if foot.joints[: len(part.joints)] == part.joints)
+            shared = {joint for other in robot.legs if other is not leg for joint in other.joints}
+            joints = tuple(joint for joint in leg.joints if joint not in shared)
+            standing = _StandingLeg(joints, foot, tuple(above))
+            if standing.stands_in(collision, collision.nominal).all():
+                legs.append(standing)
+    return tuple(legs)
 
 
 @lru_cache(maxsize=2)
@@ -140,12 +143,12 @@ def landing_poses(collision: CollisionModel, *, on_feet: bool = False) -> GeomPo
         on_feet: whether a leg that would no longer stand on its foot, because its heel is up
             behind it for example, is put in the nominal posture instead.
     """
-    postures = [{}, *map(dict, drawn(landing_ranges(collision.robot)))]
+    postures = [{}, *map(dict, sampled_postures(landing_ranges(collision.robot)))]
     poses = collision.poses(postures)
     if not on_feet:
         return poses
     for leg in standing_legs(collision):
-        for row in np.flatnonzero(~leg.holds(collision, poses)).tolist():
+        for row in np.flatnonzero(~leg.stands_in(collision, poses)).tolist():
             postures[row] = {
                 name: value for name, value in postures[row].items() if name not in leg.joints
             }
@@ -193,16 +196,16 @@ def nearest_in_landings(
     for _ in range(_HALVINGS):
         while best.distance >= enough:
             # One joint at a time, by a fraction of its range to either side.
-            around = []
+            neighbours = []
             for name, step in product(joints, (-share, share)):
                 lower, upper = ranges[name]
-                here = best.posture.get(name, robot.posture[name])
-                value = min(max(here + step * (upper - lower), lower), upper)
-                if value != here:
-                    around.append({name: value})
-            poses = collision.poses(around, list(dict.fromkeys(placed)), start=best.posture)
+                current = best.posture.get(name, robot.posture[name])
+                value = min(max(current + step * (upper - lower), lower), upper)
+                if value != current:
+                    neighbours.append({name: value})
+            poses = collision.poses(neighbours, list(dict.fromkeys(placed)), start=best.posture)
             for leg in legs:
-                poses = poses.take(leg.holds(collision, poses))
+                poses = poses.take(leg.stands_in(collision, poses))
             nearer = collision.nearest(probe, poses, [best.part], within=best.distance - _PROGRESS)
             if nearer is None:
                 break
@@ -245,9 +248,11 @@ def reaches(collision: CollisionModel, solids: Sequence[Probe]) -> tuple[Reach, 
     joints = dict.fromkeys(name for part in collision.parts for name in part.joints)
     ranges = full_ranges(collision.robot, joints)
     # Limbs move independently: one set of postures serves all of them.
-    poses = collision.poses(drawn(ranges))
-    found = (_Limb(collision, parts, solids).reach(ranges, poses) for parts in limbs.values())
-    return tuple(reach for reach in found if reach is not None)
+    poses = collision.poses(sampled_postures(ranges))
+    limb_reaches = (
+        _Limb(collision, parts, solids).reach(ranges, poses) for parts in limbs.values()
+    )
+    return tuple(reach for reach in limb_reaches if reach is not None)
 
 
 @dataclass(frozen=True, eq=False)
@@ -261,14 +266,16 @@ class _Limb:
     def reach(self, ranges: Ranges, poses: GeomPoses) -> Reach | None:
         """Shortest movement to a contact; None if no posture tried has one."""
         joints = dict.fromkeys(name for part in self.parts for name in part.joints)
-        alone = [
+        single_joint_reaches = [
             reach
             for name in joints
             for end in ranges[name]
             if (reach := self._first_hit({name: end})) is not None
         ]
-        if alone:
-            return min(alone, key=lambda reach: max(self._ways(reach.joints).values()))
+        if single_joint_reaches:
+            return min(
+                single_joint_reaches, key=lambda reach: max(self._travels(reach.joints).values())
+            )
         hit = self._hit(poses)
         if hit is None:
             return None
@@ -277,29 +284,29 @@ class _Limb:
     def _first_hit(self, end: Posture) -> Reach | None:
         """The first contact on the straight path to a posture."""
         start = self.collision.robot.posture
-        way = [
+        path = [
             {name: start[name] + float(share) * (end[name] - start[name]) for name in end}
             for share in np.linspace(0.0, 1.0, _STEPS + 1)
         ]
-        poses = self.collision.poses(way)
+        poses = self.collision.poses(path)
         if self._hit(poses) is None:
             return None
         for index, posture in enumerate(poses.postures):
             hit = self._hit(poses[index])
             if hit is not None:
-                ways = self._ways(end)
-                moved = [name for name in end if ways[name] >= _STILL * max(ways.values())]
+                travels = self._travels(end)
+                moved = [name for name in end if travels[name] >= _STILL * max(travels.values())]
                 return Reach(hit.part.name, {name: posture[name] for name in moved})
         return None
 
     def _hit(self, poses: GeomPoses) -> Nearest | None:
-        found = [
+        nearest_parts = [
             self.collision.nearest(solid, poses, self.parts, within=0.0) for solid in self.solids
         ]
-        hits = [nearest for nearest in found if nearest is not None]
+        hits = [nearest for nearest in nearest_parts if nearest is not None]
         return min(hits, key=lambda nearest: nearest.distance, default=None)
 
-    def _ways(self, end: Posture) -> Posture:
+    def _travels(self, end: Posture) -> Posture:
         """Travel of each joint from the nominal posture [rad or m]."""
         start = self.collision.robot.posture
         return {name: abs(value - start[name]) for name, value in end.items()}

@@ -50,11 +50,11 @@ def solid_model(robot: Robot) -> mujoco.MjModel:
     # An MJCF model may have visual geoms beside the colliding ones, or alone. MuJoCo makes no hull
     # for a mesh that does not collide; a distance to it then takes a search over all its vertices.
     index_of = _bodies_by_name(solid.tree)
-    shown: dict[int | None, list[Any]] = defaultdict(list)
+    bounded_geoms: dict[int | None, list[Any]] = defaultdict(list)
     for link in spec.bodies:
         bounded = [geom for geom in link.geoms if geom.type not in UNBOUNDED]
-        shown[index_of.get(link.name)] += bounded
-    for geoms in shown.values():
+        bounded_geoms[index_of.get(link.name)] += bounded
+    for geoms in bounded_geoms.values():
         if not any(geom.contype or geom.conaffinity for geom in geoms):
             for geom in geoms:
                 geom.contype = 1
@@ -115,8 +115,8 @@ def parts_of(robot: Robot, model: mujoco.MjModel) -> tuple[CollisionBody, ...]:
 
 def _bodies_by_name(tree: Tree) -> dict[str, int]:
     """Index in the tree of each body of a model; fixed links are merged."""
-    own = {name: index for index, name in enumerate(body_names(tree))}
-    return {**own, **tree.body_of_link}
+    indices = {name: index for index, name in enumerate(body_names(tree))}
+    return {**indices, **tree.body_of_link}
 
 
 def path_between(tree: Tree, trunk: int, body: int) -> list[int]:
@@ -134,7 +134,7 @@ FARTHEST = 10.0
 _SLACK = 1e-9
 """Tolerance for rounding when pairs are ruled out [m]."""
 
-_FEW = 16
+_FEW_PAIRS = 16
 """Number of pairs of geom and posture up to which measuring is faster than comparing boxes."""
 
 Posture = Mapping[str, float]
@@ -242,20 +242,20 @@ class CollisionModel:
             mujoco.mj_kinematics(model, data)
             origin[index], positions[index] = data.site_xpos[self._base], data.geom_xpos
             base[index], axes[index] = data.site_xmat[self._base], data.geom_xmat
-        into = base.reshape(count, 1, 3, 3).swapaxes(2, 3)
-        turned = axes[:, geoms].reshape(count, len(geoms), 3, 3)
-        positions[:, geoms] = (into @ (positions[:, geoms] - origin)[..., None])[..., 0]
-        axes[:, geoms] = (into @ turned).reshape(count, len(geoms), 9)
-        whole = [{**start, **posture} for posture in postures] if start else postures
-        return GeomPoses(whole, positions, axes)
+        to_base = base.reshape(count, 1, 3, 3).swapaxes(2, 3)
+        rotated = axes[:, geoms].reshape(count, len(geoms), 3, 3)
+        positions[:, geoms] = (to_base @ (positions[:, geoms] - origin)[..., None])[..., 0]
+        axes[:, geoms] = (to_base @ rotated).reshape(count, len(geoms), 9)
+        complete = [{**start, **posture} for posture in postures] if start else postures
+        return GeomPoses(complete, positions, axes)
 
     def lowest(self, poses: GeomPoses, part: CollisionBody) -> FloatArray:
         """Lowest corner of the boxes around a part's shapes in each posture, in B, shape (n, 3)."""
         box = self._model.geom_aabb[part.geoms]
         signs = np.array(list(product((-1.0, 1.0), repeat=3)))
-        own = box[:, None, :3] + signs * box[:, None, 3:]
+        local = box[:, None, :3] + signs * box[:, None, 3:]
         axes = poses.axes[:, part.geoms].reshape(-1, len(part.geoms), 3, 3)
-        corners = np.einsum("ngij,gcj->ngci", axes, own) + poses.positions[:, part.geoms, None]
+        corners = np.einsum("ngij,gcj->ngci", axes, local) + poses.positions[:, part.geoms, None]
         corners = corners.reshape(len(corners), -1, 3)
         least = corners[:, :, 2].argmin(axis=1)
         return np.asarray(corners[np.arange(len(corners)), least])
@@ -284,9 +284,9 @@ class CollisionModel:
         if len(poses.postures) > 1:
             # Most limbs are not near in any posture.
             low, high = poses.bounds
-            off = np.maximum(np.maximum(low - probe.center, probe.center - high), 0.0)[geoms]
-            far = within + probe.reach + self._radii[geoms] + _SLACK
-            geoms = geoms[(off * off).sum(axis=1) < np.maximum(far, 0.0) ** 2]
+            gaps = np.maximum(np.maximum(low - probe.center, probe.center - high), 0.0)[geoms]
+            limits = within + probe.reach + self._radii[geoms] + _SLACK
+            geoms = geoms[(gaps * gaps).sum(axis=1) < np.maximum(limits, 0.0) ** 2]
         if not len(geoms):
             return None
         rows, geoms, bounds = self._candidates(probe, poses, geoms, within)
@@ -294,13 +294,13 @@ class CollisionModel:
             return None
         order = np.argsort(bounds, kind="stable")
         best, least = None, within
-        where, xpos, xmat = self._put(probe, 0), self._data.geom_xpos, self._data.geom_xmat
+        placed, xpos, xmat = self._put(probe, 0), self._data.geom_xpos, self._data.geom_xmat
         near = rows[order].tolist(), geoms[order].tolist(), bounds[order].tolist()
         for row, geom, bound in zip(*near, strict=True):
             if bound >= least or least < enough:
                 break
             xpos[geom], xmat[geom] = poses.positions[row, geom], poses.axes[row, geom]
-            distance = self._distance(where, geom, least)
+            distance = self._distance(placed, geom, least)
             if distance < least:
                 best, least = (row, geom), distance
         if best is None:
@@ -318,8 +318,8 @@ class CollisionModel:
         geoms = self._geoms(tuple(parts))
         centers = np.array([probe.center for probe in probes]).reshape(-1, 1, 3)
         reach = np.array([probe.reach for probe in probes]).reshape(-1, 1)
-        apart = np.linalg.norm(pose.positions[0, geoms] - centers, axis=2)
-        near = (apart - self._radii[geoms] - reach < within + _SLACK).any(axis=1)
+        distances = np.linalg.norm(pose.positions[0, geoms] - centers, axis=2)
+        near = (distances - self._radii[geoms] - reach < within + _SLACK).any(axis=1)
         return [probe for probe, is_near in zip(probes, near.tolist(), strict=True) if is_near]
 
     def _candidates(
@@ -329,19 +329,19 @@ class CollisionModel:
 
         A geom lies within its bounding sphere, and within a box along its own axes.
         """
-        apart = probe.center - poses.positions[:, geoms]
-        at_least = np.sqrt((apart * apart).sum(axis=2)) - self._radii[geoms] - probe.reach
-        rows, columns = np.nonzero(at_least < within)
-        bounds, geoms = at_least[rows, columns], geoms[columns]
-        if len(rows) <= _FEW:
+        offsets = probe.center - poses.positions[:, geoms]
+        lower = np.sqrt((offsets * offsets).sum(axis=2)) - self._radii[geoms] - probe.reach
+        rows, columns = np.nonzero(lower < within)
+        bounds, geoms = lower[rows, columns], geoms[columns]
+        if len(rows) <= _FEW_PAIRS:
             return rows, geoms, bounds
         axes, box = poses.axes[rows, geoms].reshape(-1, 3, 3), self._model.geom_aabb[geoms]
-        own = np.einsum("nji,nj->ni", axes, apart[rows, columns]) - box[:, :3]
-        off = np.maximum(np.abs(own) - box[:, 3:], 0.0)
-        far = np.sqrt((off * off).sum(axis=1))
+        local = np.einsum("nji,nj->ni", axes, offsets[rows, columns]) - box[:, :3]
+        gaps = np.maximum(np.abs(local) - box[:, 3:], 0.0)
+        distances = np.sqrt((gaps * gaps).sum(axis=1))
         # Inside the box, the penetration may be deeper than the solid is large.
-        boxed = np.where(far > 0.0, far - probe.reach - _SLACK, -np.inf)
-        bounds = np.maximum(bounds, boxed)
+        box_bounds = np.where(distances > 0.0, distances - probe.reach - _SLACK, -np.inf)
+        bounds = np.maximum(bounds, box_bounds)
         near = bounds < within
         return rows[near], geoms[near], bounds[near]
 

@@ -168,9 +168,9 @@ def _base_rotation(tree: Tree, trunk: str, legs: Sequence[Leg]) -> FloatArray:
     knees = [plane.axis for plane in planes]
     sideways = np.sum(np.abs(knees), axis=0) * (up == 0.0)
     left = np.eye(3)[int(np.argmax(sideways))]
-    both = [np.column_stack([np.cross(y, up), y, up]) for y in (left, -left)]
+    candidates = [np.column_stack([np.cross(y, up), y, up]) for y in (left, -left)]
     front = named_front(legs, [plane.hip for plane in planes])
-    return max(both, key=lambda axes: (np.sign(axes[:, 0] @ front).round(6), np.trace(axes)))
+    return max(candidates, key=lambda axes: (np.sign(axes[:, 0] @ front).round(6), np.trace(axes)))
 
 
 _FRONT = re.compile(
@@ -184,9 +184,9 @@ def named_front(legs: Sequence[Leg], hips: Sequence[FloatArray]) -> FloatArray:
 
     Zero unless both are named.
     """
-    called = [(bool(_FRONT.search(leg.name)), bool(_REAR.search(leg.name))) for leg in legs]
-    front = [hip for hip, names in zip(hips, called, strict=True) if names == (True, False)]
-    rear = [hip for hip, names in zip(hips, called, strict=True) if names == (False, True)]
+    named_as = [(bool(_FRONT.search(leg.name)), bool(_REAR.search(leg.name))) for leg in legs]
+    front = [hip for hip, names in zip(hips, named_as, strict=True) if names == (True, False)]
+    rear = [hip for hip, names in zip(hips, named_as, strict=True) if names == (False, True)]
     if not front or not rear:
         return np.zeros(3)
     ahead: FloatArray = np.mean(front, axis=0) - np.mean(rear, axis=0)

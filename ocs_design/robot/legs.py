@@ -171,10 +171,10 @@ def leg_plane(chain: Chain, foot: FloatArray, up: FloatArray) -> LegPlane:
     hinges = [c for c in columns if chain.joints[rows[c]].kind is JointKind.REVOLUTE]
     for column in columns:
         axis = zero.axes[rows[column]]
-        alike = tuple(c for c in hinges if abs(zero.axes[rows[c]] @ axis) > PARALLEL)
-        if alike and abs(axis @ up) < PARALLEL:
-            spread = np.ptp([up @ zero.origins[rows[c]] for c in alike])
-            sets.append((len(alike), float(spread), alike))
+        parallel = tuple(c for c in hinges if abs(zero.axes[rows[c]] @ axis) > PARALLEL)
+        if parallel and abs(axis @ up) < PARALLEL:
+            spread = np.ptp([up @ zero.origins[rows[c]] for c in parallel])
+            sets.append((len(parallel), float(spread), parallel))
     pitch = max(sets)[2] if sets else (columns[0],)
     flat = len(columns) >= ANKLED_JOINTS
     row = chain.driven[pitch[0]]
@@ -185,11 +185,11 @@ def leg_plane(chain: Chain, foot: FloatArray, up: FloatArray) -> LegPlane:
         stretched = chain.pose(chain.stretched(foot, -up, pitch[:2] if flat else pitch))
         length = float(up @ (hip - stretched.point(foot)))
     forward = np.cross(axis, up)
-    level = float(np.linalg.norm(forward))
-    if level < 1e-9:
+    norm = float(np.linalg.norm(forward))
+    if norm < 1e-9:
         forward = np.zeros(3)
     else:
-        forward = np.sign(forward[np.argmax(np.abs(forward))]) * forward / level
+        forward = np.sign(forward[np.argmax(np.abs(forward))]) * forward / norm
     return LegPlane(pitch, axis, hip, forward, columns, flat, length)
 
 

@@ -50,23 +50,23 @@ class Limb:
         return self.chain.span(farthest_frame(self.chain.bodies[-1]))
 
 
-_REACHES_BELOW = 0.6
+_DEPTH_MIN = 0.6
 """Least depth of a leg's tip below the centre of mass, over its reach."""
-_DEEP = 0.35
+_DEPTH_TOLERANCE = 0.35
 """Largest difference of depth between the legs of a robot, over their reach."""
-EVEN = 0.2
+EVEN_TOLERANCE = 0.2
 """Largest difference of depths, or of heights at rest, that count as equal, over the reach."""
-_MIRRORED = 0.06
+_MIRROR_TOLERANCE = 0.06
 """Largest distance of a hip from the mirror image of another, over the reach."""
-_COAXIAL = 0.05
+_COAXIAL_DISTANCE = 0.05
 """Largest distance between the axes of limbs that share a hip, over the spread of all hips."""
-_HANGS = 0.2
+_HANGING_HEIGHT = 0.2
 """Least height of a hip above the tip of a limb that hangs at rest, over its reach."""
-_TWINS = 0.01
+_TWIN_TOLERANCE = 0.01
 """Largest difference of length between limbs that are alike, over their length."""
-_MEET = 1e-3
+_MEETING_DISTANCE = 1e-3
 """Distance within which the ends of two limbs coincide, over the reach."""
-_ONE_HIP = 0.3
+_HIP_DISTANCE = 0.3
 """Distance within which two limbs on one axis share a hip, over the spread of all hips."""
 _LEG_WORDS = re.compile(
     r"foot|feet|toe|calf|shank|thigh|shin|knee|hip|leg|ankle|tibia|femur|tarsus|paw|hock|sole|coxa|"
@@ -87,7 +87,7 @@ class Anatomy:
     def __init__(self, tree: Tree) -> None:
         self.tree = tree
         self.placements = tree.placements(neutral_posture(tree))
-        self.masses = tree.weighed_at(self.placements)
+        self.masses = tree.mass_properties_at(self.placements)
         self.robot = combine(self.masses)
         self._known: dict[tuple[float, ...], list[Limb]] = {}
         self.children: dict[int, list[int]] = {}
@@ -105,17 +105,17 @@ class Anatomy:
         hip = rest.origins[hinge]
         # Nao's right hip follows the left one, yet is a joint of its leg; in a finger that follows
         # its neighbour, most joints do.
-        led = sum(
+        followers = sum(
             joint.mimic is not None and joint.mimic[0] not in chain.names for joint in chain.joints
         )
-        own = len(chain.driven)
+        driven = len(chain.driven)
         lowest = float(up @ chain.pose(chain.stretched(local, -up)).point(local))
         return Limb(
             base,
             first,
             last,
             chain,
-            own + (led if led < own else 0) - is_wheel(end),
+            driven + (followers if followers < driven else 0) - is_wheel(end),
             hip,
             rest.point(local),
             rest.axes[hinge : hinge + 2],
@@ -129,7 +129,7 @@ class Anatomy:
         if key in self._known:
             return self._known[key]
         ends = far_ends(self.tree)
-        found = []
+        limbs = []
         for first, body in enumerate(self.tree.bodies[1:], start=1):
             if body.parent != 0 and len(self.children[body.parent]) < 2:
                 continue
@@ -138,9 +138,9 @@ class Anatomy:
             # Fingers, for example, do not even reach down to the centre of mass.
             low = float(up @ (self.placements[first].position - self.robot.com)) < length
             if low and chain.driven:
-                found.append(self.limb(body.parent, ends[first], up))
-        self._known[key] = found
-        return found
+                limbs.append(self.limb(body.parent, ends[first], up))
+        self._known[key] = limbs
+        return limbs
 
     def limbs(self, up: FloatArray) -> list[Limb]:
         """Limbs that stretch well below the centre of mass of the robot and of their carriers."""
@@ -151,14 +151,14 @@ class Anatomy:
             swings = limb.hinges == 1 and level and self.names([limb]) is True
             if limb.reach <= 0.0 or not (limb.hinges >= 2 or rolls or swings):
                 continue
-            lifted = [self.masses[i] for i in self.tree.ancestors(limb.base)]
+            carriers = [self.masses[i] for i in self.tree.ancestors(limb.base)]
             if limb.base != 0 or len(self.children[0]) > 1:
                 # A hopper's heavy foot lowers the centre of mass.
-                lifted.append(self.robot)
+                carriers.append(self.robot)
             if all(
-                limb.depth + up @ each.com > _REACHES_BELOW * limb.reach
-                for each in lifted
-                if each.mass > 0.0
+                limb.depth + up @ carrier.com > _DEPTH_MIN * limb.reach
+                for carrier in carriers
+                if carrier.mass > 0.0
             ):
                 found.append(limb)
         return found
@@ -175,28 +175,30 @@ class Anatomy:
 
         Where a URDF leaves a loop open, exporters write a frame on both sides of the cut.
         """
-        own, above = self.inside([limb]), set(self.tree.ancestors(limb.base))
+        inside, above = self.inside([limb]), set(self.tree.ancestors(limb.base))
         for pair in self.tree.loops:
             tied = [self.tree.body_of_link[name] for name in pair]
             for end, beyond in (tied, reversed(tied)):
-                if end == limb.last and beyond not in own | above:
+                if end == limb.last and beyond not in inside | above:
                     return True
         ends = self._fixed_frames(limb.last)
         for other in self._all_limbs(np.array([0.0, 0.0, 1.0])):
             # In planar robots, one leg is behind the other.
-            apart = np.linalg.norm(other.hip - limb.hip) > _MIRRORED * limb.reach
+            apart = np.linalg.norm(other.hip - limb.hip) > _MIRROR_TOLERANCE * limb.reach
             if other.base == limb.base and other.first != limb.first and apart:
-                theirs = self._fixed_frames(other.last)
-                gaps = np.linalg.norm(ends[:, None] - theirs[None], axis=2)
-                if (gaps < _MEET * limb.reach).any():
+                other_ends = self._fixed_frames(other.last)
+                gaps = np.linalg.norm(ends[:, None] - other_ends[None], axis=2)
+                if (gaps < _MEETING_DISTANCE * limb.reach).any():
                     return True
         return False
 
     def _fixed_frames(self, body: int) -> FloatArray:
         """Origins at rest of a body's links, except the one at its joint [m], shape (n, 3)."""
-        places = [each.position for each in self.tree.bodies[body].links.values()]
-        found = [self.placements[body].point(each) for each in places if each.any()]
-        return np.reshape(found, (-1, 3))
+        positions = [placement.position for placement in self.tree.bodies[body].links.values()]
+        origins = [
+            self.placements[body].point(position) for position in positions if position.any()
+        ]
+        return np.reshape(origins, (-1, 3))
 
     def one_of_each_pair(self, chosen: Sequence[Limb], up: FloatArray) -> list[Limb]:
         """The limbs; of those that share a hip only the deepest, or the first in the file."""
@@ -204,7 +206,9 @@ class Anatomy:
             return list(chosen)
         hips = np.array([limb.hip for limb in chosen])
         kept: list[Limb] = []
-        for limb in sorted(chosen, key=lambda each: (-round(each.depth, 3), each.first)):
+        for limb in sorted(
+            chosen, key=lambda candidate: (-round(candidate.depth, 3), candidate.first)
+        ):
             if not any(_on_one_hip(limb, other, hips) for other in kept):
                 kept.append(limb)
         return kept if len(kept) > 1 else list(chosen)
@@ -223,7 +227,7 @@ class Anatomy:
             if self.inside((*one, *other)) & set(ends):
                 continue
             mirrored = self.mirrored(one, up) and self.mirrored(other, up)
-            if mirrored and reach_alike((*one, *other), EVEN):
+            if mirrored and reach_alike((*one, *other), EVEN_TOLERANCE):
                 yield (*one, *other)
 
     def single(self, limbs: Sequence[Limb], up: FloatArray) -> Iterator[Sequence[Limb]]:
@@ -242,16 +246,16 @@ class Anatomy:
         kinds = [(limb.hinges, round(limb.reach / reach, 1)) for limb in chosen]
         middle = hips.mean(axis=0)
         same = all(kind[0] == kinds[0][0] and abs(kind[1] - 1.0) <= 0.1 for kind in kinds)
-        if len(chosen) == 2 and same and np.ptp(hips, axis=0).max() < _MIRRORED * reach:
+        if len(chosen) == 2 and same and np.ptp(hips, axis=0).max() < _MIRROR_TOLERANCE * reach:
             # A planar robot, one leg behind the other.
             return True
         for side in np.eye(3)[up == 0.0]:
-            if np.ptp(hips @ side) < _MIRRORED * reach:
+            if np.ptp(hips @ side) < _MIRROR_TOLERANCE * reach:
                 continue
             images = hips - 2.0 * np.outer((hips - middle) @ side, side)
             gaps = np.linalg.norm(images[:, None, :] - hips[None, :, :], axis=2)
             partner = gaps.argmin(axis=1)
-            if (gaps.min(axis=1) < _MIRRORED * reach).all() and all(
+            if (gaps.min(axis=1) < _MIRROR_TOLERANCE * reach).all() and all(
                 kinds[i][0] == kinds[j][0] and abs(kinds[i][1] - kinds[j][1]) <= 0.1
                 for i, j in enumerate(partner)
             ):
@@ -265,7 +269,7 @@ class Anatomy:
         even = 2.0 * np.pi / len(chosen)
         return bool(np.ptp(radii) < 0.1 * radii.max() and np.abs(turns - even).max() < 0.2)
 
-    def together(self, chosen: Sequence[Limb], up: FloatArray) -> bool:
+    def stand_level(self, chosen: Sequence[Limb], up: FloatArray) -> bool:
         """Whether the tips are level and below the hips, at rest or in a posture of the file."""
         reach = reach_of(chosen)
         postures: list[Mapping[str, float]] = [
@@ -279,7 +283,7 @@ class Anatomy:
                 local = farthest_frame(self.tree.bodies[limb.last])
                 tips.append(float(up @ placements[limb.last].point(local)))
                 hips.append(float(up @ placements[limb.first].position))
-            level = len(chosen) == 1 or np.ptp(tips) < EVEN * reach
+            level = len(chosen) == 1 or np.ptp(tips) < EVEN_TOLERANCE * reach
             if level and min(hips) - max(tips) > 0.2 * reach:
                 return True
         return False
@@ -292,14 +296,14 @@ class Anatomy:
         """
         kinds: dict[tuple[int, int], list[Limb]] = {}
         for limb in self.limbs(up):
-            if limb.hinges >= 2 and up @ (limb.hip - limb.tip) > _HANGS * limb.reach:
+            if limb.hinges >= 2 and up @ (limb.hip - limb.tip) > _HANGING_HEIGHT * limb.reach:
                 kinds.setdefault((limb.base, limb.hinges), []).append(limb)
         best: list[Limb] = []
         for kind, limbs in kinds.items():
             deepest = max(limb.depth for limb in limbs)
-            even = [limb for limb in limbs if deepest - limb.depth < EVEN * limb.reach]
+            even = [limb for limb in limbs if deepest - limb.depth < EVEN_TOLERANCE * limb.reach]
             twins = any(
-                abs(one.length - other.length) < _TWINS * one.length
+                abs(one.length - other.length) < _TWIN_TOLERANCE * one.length
                 for other in self._all_limbs(up)
                 if (other.base, other.hinges) == kind and other not in even
                 for one in even
@@ -335,11 +339,11 @@ class Anatomy:
 
     def inside(self, limbs: Sequence[Limb]) -> set[int]:
         """Bodies of limbs, and all their descendants."""
-        found = {limb.first for limb in limbs}
+        bodies = {limb.first for limb in limbs}
         for index, body in enumerate(self.tree.bodies):
-            if body.parent in found:
-                found.add(index)
-        return found
+            if body.parent in bodies:
+                bodies.add(index)
+        return bodies
 
     def floats(self) -> bool | None:
         """Whether the robot floats freely in its file; None if the file does not say."""
@@ -359,7 +363,7 @@ def sets_of(limbs: Sequence[Limb]) -> Iterator[list[Limb]]:
         alike = []
         for kind in kinds.values():
             deepest = max(limb.depth for limb in kind)
-            even = [limb for limb in kind if deepest - limb.depth < _DEEP * limb.reach]
+            even = [limb for limb in kind if deepest - limb.depth < _DEPTH_TOLERANCE * limb.reach]
             if len(even) > 1:
                 alike.append(even)
         yield from alike
@@ -384,10 +388,10 @@ def _on_one_hip(one: Limb, other: Limb, hips: FloatArray) -> bool:
     return (
         one.first != other.first
         and one.base == other.base
-        and float(np.linalg.norm(between)) < _ONE_HIP * spread
+        and float(np.linalg.norm(between)) < _HIP_DISTANCE * spread
         and any(
             abs(axis @ twin) > PARALLEL
-            and float(np.linalg.norm(np.cross(axis, between))) < _COAXIAL * spread
+            and float(np.linalg.norm(np.cross(axis, between))) < _COAXIAL_DISTANCE * spread
             # The hips of a quadruped's left and right leg share an axis, too.
             and axis @ (one.hip - middle) * (axis @ (other.hip - middle)) > 0.0
             for axis in one.axes

@@ -123,12 +123,12 @@ def merge_fixed_links(
     # For each body its name, parent, placement and joint; and its links with their frames in it.
     heads: list[tuple[str, int, Placement, Joint | None]] = [(root, -1, identity, None)]
     members = [[(links[root], identity)]]
-    home = {root: (0, identity)}
+    frame_of_link = {root: (0, identity)}
     # An explicit stack: chains of thousands of links would exhaust Python's.
     stack = list(reversed(children.get(root, ())))
     while stack:
         connection = stack.pop()
-        index, place = home[connection.parent]
+        index, place = frame_of_link[connection.parent]
         place = place @ connection.placement
         if connection.held:
             warnings.add(f"{connection.held} joints, held at zero", connection.name)
@@ -138,11 +138,11 @@ def merge_fixed_links(
             index, place = len(heads) - 1, identity
         place = place @ connection.child_in_joint
         members[index].append((links[connection.child], place))
-        home[connection.child] = (index, place)
+        frame_of_link[connection.child] = (index, place)
         stack.extend(reversed(children.get(connection.child, ())))
     bodies = []
     for head, joined in zip(heads, members, strict=True):
-        weighed = [(link.mass_properties or MassProperties.zero(), frame) for link, frame in joined]
+        parts = [(link.mass_properties or MassProperties.zero(), frame) for link, frame in joined]
         shapes = (
             replace(
                 shape,
@@ -155,12 +155,9 @@ def merge_fixed_links(
         bodies.append(
             Body(
                 *head,
-                combine(each.moved(frame.rotation, frame.position) for each, frame in weighed),
+                combine(part.moved(frame.rotation, frame.position) for part, frame in parts),
                 {link.name: frame for link, frame in joined},
-                {
-                    link.name: each.mass
-                    for (link, _), (each, _) in zip(joined, weighed, strict=True)
-                },
+                {link.name: part.mass for (link, _), (part, _) in zip(joined, parts, strict=True)},
                 tuple(shapes),
             )
         )
@@ -209,7 +206,7 @@ def check_mass_properties(tree: Tree, warnings: Warnings) -> None:
             "world, remove it together with its joint, or make that joint floating. For a first "
             "answer the whole robot's figures suffice: --mass and --inertia IXX,IYY,IZZ",
         )
-    check_whole(tree.locked_mass_properties({}, base.name), tree)
+    check_total_mass(tree.locked_mass_properties({}, base.name), tree)
     for body in tree.bodies:
         defect = physical_defect(body.mass_properties)
         if defect is not None:
@@ -223,16 +220,16 @@ def check_mass_properties(tree: Tree, warnings: Warnings) -> None:
             warnings.add("moving links without mass at the end of a chain", body.name)
 
 
-def check_whole(weighed: MassProperties, tree: Tree) -> None:
+def check_total_mass(properties: MassProperties, tree: Tree) -> None:
     """Refuse a robot that cannot exist, or has no inertia to turn.
 
     Args:
-        weighed: mass properties of the whole robot, in any frame.
+        properties: mass properties of the whole robot, in any frame.
         tree: of the robot, to name the links at fault.
     """
-    defect = solid_defect(weighed)
+    defect = solid_defect(properties)
     if defect is not None:
-        worst = [each.name for each in tree.bodies if physical_defect(each.mass_properties)]
+        worst = [body.name for body in tree.bodies if physical_defect(body.mass_properties)]
         first = f", first of {some_of([repr(name) for name in worst])}" if worst else ""
         raise RobotError(
             f"the robot as a whole {defect}",

@@ -39,17 +39,24 @@ def robot_by_hand(
         )
     xx, yy, zz, xy, xz, yz = (*inertia, 0.0, 0.0, 0.0)[:6]
     matrix = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]], dtype=np.float64)
-    weighed = MassProperties(mass, np.array(com, dtype=np.float64), matrix)
-    if (defect := solid_defect(weighed)) is not None:
+    properties = MassProperties(mass, np.array(com, dtype=np.float64), matrix)
+    if (defect := solid_defect(properties)) is not None:
         raise RobotError(
             f"the robot given by hand {defect}",
             hint="the inertia is about the centre of mass, in kg m^2; the mass is in kg",
         )
-    if (impossible := impossible_size(weighed)) is not None:
-        raise RobotError(f"the robot given by hand: {impossible}", hint=_likely_unit(weighed))
+    if (impossible := impossible_size(properties)) is not None:
+        raise RobotError(f"the robot given by hand: {impossible}", hint=_likely_unit(properties))
     links = {TRUNK: Placement.identity()}
     body = Body(
-        TRUNK, -1, Placement.identity(), None, weighed, links, {TRUNK: mass}, (equal_box(weighed),)
+        TRUNK,
+        -1,
+        Placement.identity(),
+        None,
+        properties,
+        links,
+        {TRUNK: mass},
+        (equal_box(properties),),
     )
     return Robot(
         name=name,
@@ -62,7 +69,7 @@ def robot_by_hand(
         floating_base=TRUNK,
         posture={},
         posture_name="zero",
-        mass_properties=weighed,
+        mass_properties=properties,
         legs=(),
         standing_height=None,
         warnings=(),
@@ -116,24 +123,24 @@ def person(mass: float, height: float, payload: float = 0.0, name: str = "person
     )
 
 
-def equal_box(weighed: MassProperties) -> Shape:
+def equal_box(properties: MassProperties) -> Shape:
     """The homogeneous box with the same mass, centre of mass and inertia.
 
     A box of sides a, b, c has I_a = m (b^2 + c^2) / 12 and so on, hence
     a^2 = 6 (I_b + I_c - I_a) / m.
     """
     # Right-handed principal axes, as near to B's as possible.
-    moments, axes = np.linalg.eigh(weighed.inertia)
+    moments, axes = np.linalg.eigh(properties.inertia)
     orders = [list(order) for order in permutations(range(3))]
-    order = max(orders, key=lambda each: float(np.abs(np.diag(axes[:, each])).sum()))
+    order = max(orders, key=lambda candidate: float(np.abs(np.diag(axes[:, candidate])).sum()))
     moments, axes = moments[order], axes[:, order]
     axes = axes * np.where(np.diag(axes) < 0.0, -1.0, 1.0)
     if np.linalg.det(axes) < 0.0:
         axes[:, 2] *= -1.0
-    squares = 6.0 * (moments.sum() - 2.0 * moments) / weighed.mass
+    squares = 6.0 * (moments.sum() - 2.0 * moments) / properties.mass
     half = 0.5 * np.sqrt(np.maximum(squares, 0.0))
     size = (float(half[0]), float(half[1]), float(half[2]))
-    return Shape(ShapeKind.BOX, size, weighed.com, axes, TRUNK, collides=True)
+    return Shape(ShapeKind.BOX, size, properties.com, axes, TRUNK, collides=True)
 
 
 def assumed_trunk(robot: Robot) -> Shape | None:
@@ -157,20 +164,21 @@ USUAL_DENSITY = 50.0
 """Density of a ball with Solo12's mass and inertia [kg/m^3]."""
 
 
-def _likely_unit(weighed: MassProperties) -> str:
+def _likely_unit(properties: MassProperties) -> str:
     """Suggestion of the units of mass and inertia with which the robot is most like Solo12."""
-    grams, lighter = f"a mass of {weighed.mass:.4g}g", replace(weighed, mass=1e-3 * weighed.mass)
+    grams = f"a mass of {properties.mass:.4g}g"
+    lighter = replace(properties, mass=1e-3 * properties.mass)
     options = {grams: lighter}
     for unit, factor in UNITS[Dimension.INERTIA].items():
         # A bare number is in SI, which was found not to be meant.
         if factor == 1:
             continue
-        written = (f"{moment:.6g}{unit.replace(' ', '')}" for moment in np.diag(weighed.inertia))
-        inertia, turned = f"an inertia of {','.join(written)}", float(factor) * weighed.inertia
-        options[inertia] = replace(weighed, inertia=turned)
+        moments = (f"{moment:.6g}{unit.replace(' ', '')}" for moment in np.diag(properties.inertia))
+        inertia, turned = f"an inertia of {','.join(moments)}", float(factor) * properties.inertia
+        options[inertia] = replace(properties, inertia=turned)
         options[f"{grams} and {inertia}"] = replace(lighter, inertia=turned)
-    unlikely = {
+    deviations = {
         text: abs(np.log(ball_density(body) / USUAL_DENSITY)) for text, body in options.items()
     }
-    meant = min(unlikely, key=unlikely.__getitem__)
-    return f"did you mean {meant}? Bare numbers are in kg and kg m^2"
+    likeliest = min(deviations, key=deviations.__getitem__)
+    return f"did you mean {likeliest}? Bare numbers are in kg and kg m^2"

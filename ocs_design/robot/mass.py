@@ -70,7 +70,7 @@ NEGLIGIBLE_MOMENT = 1e-15
 """Rounding of a zero moment [kg m^2]: a milligram at 0.1 mm has ten times as much."""
 
 
-_ROUNDED = 1e-9
+_MOMENT_ROUNDING = 1e-9
 """Rounding of the moments in a file, over the largest one."""
 
 
@@ -86,7 +86,7 @@ def physical_defect(body: MassProperties) -> str | None:
     if body.mass < 0.0:
         return f"has the negative mass {body.mass:g} kg"
     moments = np.linalg.eigvalsh(body.inertia)
-    slack = max(_ROUNDED * max(abs(moments[2]), abs(moments[0])), NEGLIGIBLE_MOMENT)
+    slack = max(_MOMENT_ROUNDING * max(abs(moments[2]), abs(moments[0])), NEGLIGIBLE_MOMENT)
     if moments[0] < -slack:
         return f"has the negative principal moment {moments[0]:.3g} kg m^2"
     if moments[2] > moments[0] + moments[1] + slack:

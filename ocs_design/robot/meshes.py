@@ -39,9 +39,9 @@ def mesh_bounds(path: Path, scale: tuple[float, ...], *, quick: bool = False) ->
         path: of its file. scale: factors along its axes.
         quick: whether to skip meshes that take longer than milliseconds; they give None.
     """
-    bounds = own_bounds(path, quick=True)
+    bounds = unscaled_bounds(path, quick=True)
     if bounds is None and not quick:
-        bounds = own_bounds(path, quick=False)
+        bounds = unscaled_bounds(path, quick=False)
     if bounds is None:
         return None
     corners = bounds * np.asarray(scale)
@@ -49,7 +49,7 @@ def mesh_bounds(path: Path, scale: tuple[float, ...], *, quick: bool = False) ->
 
 
 @cache
-def own_bounds(path: Path, *, quick: bool) -> FloatArray | None:
+def unscaled_bounds(path: Path, *, quick: bool) -> FloatArray | None:
     """Corners in the mesh's own unit, shape (2, 3); None if it is broken (`mesh_bounds`)."""
     try:
         check_mesh_file(path)
@@ -148,10 +148,10 @@ Y_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
 _Y_UP_BODIES = 3
 """Least number of bodies with such meshes: one or two may be round and tell nothing."""
 
-_NEARER = 2.0 / 3.0
+_NEARER_RATIO = 2.0 / 3.0
 """Largest ratio of distances from the centres of mass for which turned meshes fit better."""
 
-_ASSET = 1 << 16
+_ASSET_LENGTH = 1 << 16
 """Length of the start of a .dae that contains its asset [bytes]."""
 
 
@@ -162,41 +162,41 @@ def with_y_up(tree: Tree) -> Tree:
     Assimp do, and there are robots for either: meshes are turned if their middles are then much
     nearer to their bodies' centres of mass, and a warning says so.
     """
-    found = [
+    meshes = [
         (body, shape, off, turned)
         for body in tree.bodies
         for shape in body.shapes
-        if shape.mesh is not None and _says_y_up(shape.mesh)
+        if shape.mesh is not None and _declares_y_up(shape.mesh)
         for x, y, z in (shape.size,)
         for turned in (replace(shape, size=(x, z, y), rotation=frozen(shape.rotation @ Y_UP)),)
         if (off := _off_centre(shape, body)) is not None
     ]
-    if len({body.name for body, *_ in found}) < _Y_UP_BODIES:
+    if len({body.name for body, *_ in meshes}) < _Y_UP_BODIES:
         return tree
-    before = sum(off for _, _, off, _ in found) / len(found)
-    after = sum(_off_centre(turned, body) or 0.0 for body, _, _, turned in found) / len(found)
-    if after > _NEARER * before:
+    before = sum(off for _, _, off, _ in meshes) / len(meshes)
+    after = sum(_off_centre(turned, body) or 0.0 for body, _, _, turned in meshes) / len(meshes)
+    if after > _NEARER_RATIO * before:
         return tree
     millimetres = (f"{1e3 * off:.0f} mm" for off in (after, before))
     sentence = (
-        f"{len(found)} .dae meshes declare y as up and are turned accordingly: on average they "
+        f"{len(meshes)} .dae meshes declare y as up and are turned accordingly: on average they "
         f"are then {' and not '.join(millimetres)} off their links' centres of mass; RViz does not "
         "turn them"
     )
-    other = {id(shape): turned for _, shape, _, turned in found}
+    other = {id(shape): turned for _, shape, _, turned in meshes}
     bodies = (
-        replace(body, shapes=tuple(other.get(id(each), each) for each in body.shapes))
+        replace(body, shapes=tuple(other.get(id(shape), shape) for shape in body.shapes))
         for body in tree.bodies
     )
     return replace(tree, bodies=tuple(bodies), warnings=(*tree.warnings, sentence))
 
 
 @cache
-def _says_y_up(path: Path) -> bool:
+def _declares_y_up(path: Path) -> bool:
     if path.suffix.lower() != ".dae":
         return False
     with path.open("rb") as stream:
-        return b"<up_axis>Y_UP" in stream.read(_ASSET)
+        return b"<up_axis>Y_UP" in stream.read(_ASSET_LENGTH)
 
 
 def _off_centre(shape: Shape, body: Body) -> float | None:
@@ -217,14 +217,14 @@ def extent(shape: Shape, direction: FloatArray) -> float | None:
     Exact for primitives. A mesh counts as its bounding box in its own frame; None if its file is
     missing or cannot be read.
     """
-    own = shape.rotation.T @ direction
+    local = shape.rotation.T @ direction
     if shape.kind is ShapeKind.MESH:
         bounds = None if shape.mesh is None else mesh_bounds(shape.mesh, shape.size)
         if bounds is None:
             return None
-        reach = float((np.where(_CORNERS, bounds[1], bounds[0]) @ own).max())
+        reach = float((np.where(_CORNERS, bounds[1], bounds[0]) @ local).max())
     else:
-        reach = _primitive_extent(shape, own)
+        reach = _primitive_extent(shape, local)
     return float(direction @ shape.position + reach)
 
 
@@ -310,7 +310,7 @@ def trunk_extent(tree: Tree, trunk: str, direction: FloatArray) -> float:
     return farthest - float(along @ base.position)
 
 
-def size(tree: Tree, posture: Mapping[str, float], trunk: str) -> float:
+def longest_side(tree: Tree, posture: Mapping[str, float], trunk: str) -> float:
     """Longest side of the box along B's axes that holds the robot at `posture` [m]."""
     placements = tree.placements_from(trunk, posture)
 

@@ -70,11 +70,11 @@ def find_base(model: mujoco.MjModel, named: Sequence[str], warnings: Warnings) -
     driven = set(model.body_rootid[model.dof_bodyid[degrees]].tolist())
     kinds = (driven | (jointed & free), jointed, moving, set(roots))
     candidates = next(
-        found for kind in kinds if (found := [each for each in roots if each in kind])
+        matching for kind in kinds if (matching := [root for root in roots if root in kind])
     )
     known = {model.body(body).name: int(model.body_rootid[body]) for body in range(1, model.nbody)}
-    stated = [known[name] for name in named if known.get(name) in roots]
-    if len(candidates) > 1 and not stated:
+    named_roots = [known[name] for name in named if known.get(name) in roots]
+    if len(candidates) > 1 and not named_roots:
         names = [model.body(body).name for body in candidates]
         what = "move on their own" if moving else "are in the file"
         raise RobotError(
@@ -82,7 +82,7 @@ def find_base(model: mujoco.MjModel, named: Sequence[str], warnings: Warnings) -
             hint=f"say which: {'; or '.join(f'--trunk {name}' for name in names[:3])}. The others "
             "are left out; a robot must be one child of the world, with all its parts below it",
         )
-    base = (stated or candidates)[0]
+    base = (named_roots or candidates)[0]
     if base not in free:
         warnings.add("no body has a free joint: taken as the floating base", model.body(base).name)
     for body in roots:
@@ -222,15 +222,15 @@ def shapes_of(model: mujoco.MjModel, body: int) -> Iterator[Shape]:
         )
 
 
-_TRAVELS = {int(mujoco.mjtJoint.mjJNT_FREE), int(mujoco.mjtJoint.mjJNT_SLIDE)}
+_TRAVEL_JOINTS = {int(mujoco.mjtJoint.mjJNT_FREE), int(mujoco.mjtJoint.mjJNT_SLIDE)}
 """Joints that let a base travel; one that only turns is that of an arm."""
 
-_LOOPS = (int(mujoco.mjtEq.mjEQ_CONNECT), int(mujoco.mjtEq.mjEQ_WELD))
-_LOOP = (
+_LOOP_TYPES = (int(mujoco.mjtEq.mjEQ_CONNECT), int(mujoco.mjtEq.mjEQ_WELD))
+_LOOP_WARNING = (
     "closed chains are cut open at their connect or weld; the legs move as if open, and the loop "
     "is not enforced"
 )
-_TIE = "connect or weld ties to something else, released, and its mass left out"
+_TIE_WARNING = "connect or weld ties to something else, released, and its mass left out"
 
 
 def read_mjcf(content: bytes, folder: Path | None, named: Sequence[str] = ()) -> Tree:
@@ -244,7 +244,7 @@ def read_mjcf(content: bytes, folder: Path | None, named: Sequence[str] = ()) ->
     warnings = Warnings()
     try:
         with mujoco_warnings_to(warnings):
-            spec, lost = parse_mjcf(content, folder or Path.cwd(), warnings)
+            spec, missing_geoms = parse_mjcf(content, folder or Path.cwd(), warnings)
             model = spec.compile()
     except ValueError as error:
         raise mujoco_refusal(error) from error
@@ -267,24 +267,24 @@ def read_mjcf(content: bytes, folder: Path | None, named: Sequence[str] = ()) ->
     for body in np.flatnonzero(model.body_rootid == base).tolist():
         name = model.body(body).name
         # Meshes that are not there.
-        unseen = (
+        missing_meshes = (
             Shape(ShapeKind.MESH, (1.0, 1.0, 1.0), np.zeros(3), np.eye(3), name, collides)
-            for each, collides in lost
-            if each.name == name
+            for body_spec, collides in missing_geoms
+            if body_spec.name == name
         )
         moments = np.diag(model.body_inertia[body])
         principal = MassProperties(float(model.body_mass[body]), np.zeros(3), moments)
         axes = rotation_from_quaternion(model.body_iquat[body])
-        weighed = principal.moved(axes, model.body_ipos[body])
+        properties = principal.moved(axes, model.body_ipos[body])
         if model.body_gravcomp[body] != 0.0:
             warnings.add("bodies without gravity (gravcomp), simulated with gravity", name)
-        links[name] = Link(name, weighed, (*shapes_of(model, body), *unseen))
+        links[name] = Link(name, properties, (*shapes_of(model, body), *missing_meshes))
         for connection in connections_to(model, body, warnings) if body != base else ():
             children.setdefault(connection.parent, []).append(connection)
             # Before the last of several joints there are links without mass.
             links.setdefault(connection.child, Link(connection.child, None))
     loops = []
-    for index in np.flatnonzero(np.isin(model.eq_type, _LOOPS)):
+    for index in np.flatnonzero(np.isin(model.eq_type, _LOOP_TYPES)):
         # Bodies, or the world (0), that are tied together.
         ends = np.array([model.eq_obj1id[index], model.eq_obj2id[index]])
         if model.eq_objtype[index] == mujoco.mjtObj.mjOBJ_SITE:
@@ -293,7 +293,7 @@ def read_mjcf(content: bytes, folder: Path | None, named: Sequence[str] = ()) ->
         one, other = (model.body(int(end)).name for end in ends)
         if base in roots:
             name = model.eq(index).name or f"{one} to {other}"
-            warnings.add(_LOOP if roots == {base} else _TIE, name)
+            warnings.add(_LOOP_WARNING if roots == {base} else _TIE_WARNING, name)
         if roots == {base}:
             loops.append((one, other))
     tree = make_tree(spec.modelname, model.body(base).name, links, children, warnings)
@@ -308,7 +308,7 @@ def read_mjcf(content: bytes, folder: Path | None, named: Sequence[str] = ()) ->
     return replace(
         tree,
         named_postures=keyframes,
-        floats=bool(set(model.jnt_type[model.jnt_bodyid == base].tolist()) & _TRAVELS),
+        floats=bool(set(model.jnt_type[model.jnt_bodyid == base].tolist()) & _TRAVEL_JOINTS),
         loops=tuple(loops),
     )
 

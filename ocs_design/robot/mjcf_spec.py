@@ -70,11 +70,11 @@ LARGEST_ASSET = 128 << 20
 """Largest file that a model may refer to [bytes]."""
 
 
-Lost: TypeAlias = list[tuple[mujoco.MjsBody, bool]]
+MissingGeoms: TypeAlias = list[tuple[mujoco.MjsBody, bool]]
 """Bodies that lose a geom because its mesh is missing, and whether that geom collides."""
 
 
-def embed_assets(spec: mujoco.MjSpec, folder: Path, warnings: Warnings) -> Lost:
+def embed_assets(spec: mujoco.MjSpec, folder: Path, warnings: Warnings) -> MissingGeoms:
     """Read every file that the model refers to, so that it compiles anywhere.
 
     The files' names in the model then have no folders.
@@ -87,12 +87,12 @@ def embed_assets(spec: mujoco.MjSpec, folder: Path, warnings: Warnings) -> Lost:
     Returns:
         Geoms left out because of them.
     """
-    lost: Lost = []
-    of_meshes: list[Asset] = [*spec.meshes, *spec.skins, *spec.hfields]
-    assets = [(each, each.compiler.meshdir) for each in of_meshes]
-    assets += [(each, each.compiler.texturedir) for each in spec.textures]
+    missing_geoms: MissingGeoms = []
+    mesh_assets: list[Asset] = [*spec.meshes, *spec.skins, *spec.hfields]
+    assets = [(asset, asset.compiler.meshdir) for asset in mesh_assets]
+    assets += [(texture, texture.compiler.texturedir) for texture in spec.textures]
     # Assets of an attached model follow that model's rules.
-    rules = [spec.compiler, *(each.compiler for each, _ in assets)]
+    compilers = [spec.compiler, *(asset.compiler for asset, _ in assets)]
     names: dict[Path, str] = {}
     for asset, subfolder in assets:
         missing = _embed(spec, asset, folder / subfolder, names)
@@ -107,16 +107,16 @@ def embed_assets(spec: mujoco.MjSpec, folder: Path, warnings: Warnings) -> Lost:
         elif isinstance(asset, mujoco.MjsMesh):
             for geom in [geom for geom in spec.geoms if geom.meshname == asset.name]:
                 require_inertial(spec, geom, asset.file)
-                lost.append((geom.parent, bool(geom.contype or geom.conaffinity)))
+                missing_geoms.append((geom.parent, bool(geom.contype or geom.conaffinity)))
                 delete_geom(spec, geom)
         elif isinstance(asset, mujoco.MjsHField):
             for geom in [geom for geom in spec.geoms if geom.hfieldname == asset.name]:
                 delete_geom(spec, geom)
         spec.delete(asset)
-    for each in rules:
-        each.meshdir = each.texturedir = ""
+    for compiler in compilers:
+        compiler.meshdir = compiler.texturedir = ""
     spec.strippath = False
-    return lost
+    return missing_geoms
 
 
 def _embed(spec: mujoco.MjSpec, asset: Asset, folder: Path, names: dict[Path, str]) -> str | None:
@@ -155,7 +155,9 @@ def delete_geom(spec: mujoco.MjSpec, geom: mujoco.MjsGeom) -> None:
     spec.delete(geom)
 
 
-def parse_mjcf(content: bytes, folder: Path, warnings: Warnings) -> tuple[mujoco.MjSpec, Lost]:
+def parse_mjcf(
+    content: bytes, folder: Path, warnings: Warnings
+) -> tuple[mujoco.MjSpec, MissingGeoms]:
     """The model of an MJCF file; its bodies, joints and actuators all have names.
 
     Args:
@@ -213,7 +215,7 @@ def mujoco_refusal(error: ValueError) -> RobotError:
 
 
 def _expand_includes(
-    parent: ET.Element, folder: Path, seen: set[Path], beside: Path | None = None
+    parent: ET.Element, folder: Path, seen: set[Path], parent_folder: Path | None = None
 ) -> None:
     """Replace each `<include>` by the contents of its file.
 
@@ -224,12 +226,12 @@ def _expand_includes(
     """
     for child in list(parent):
         if child.tag != "include":
-            _expand_includes(child, folder, seen, beside)
+            _expand_includes(child, folder, seen, parent_folder)
             continue
         path = folder / child.get("file", "")
-        if beside is not None and not path.exists():
+        if parent_folder is not None and not path.exists():
             # As MuJoCo does.
-            path = beside / child.get("file", "")
+            path = parent_folder / child.get("file", "")
         included = _read_part(path, folder, "included file")
         if path.resolve() in seen:
             raise RobotError(

@@ -24,9 +24,9 @@ from ocs_design.robot.tree import Body, JointKind, Shape, ShapeKind, Tree
 
 def quaternion(rotation: FloatArray) -> FloatArray:
     """The unit quaternion (w, x, y, z) of a rotation matrix (3, 3), shape (4,)."""
-    found = np.empty(4)
-    mujoco.mju_mat2Quat(found, np.ascontiguousarray(rotation, dtype=np.float64).ravel())
-    return found
+    wxyz = np.empty(4)
+    mujoco.mju_mat2Quat(wxyz, np.ascontiguousarray(rotation, dtype=np.float64).ravel())
+    return wxyz
 
 
 VISUAL_BYTES = 16 * 2**20
@@ -104,17 +104,17 @@ def nearest_physical_moments(moments: FloatArray, floor: float) -> FloatArray:
     physical = []
     for floored, triangle in product(range(4), (False, True)):
         # The least change that raises the first moments to the floor.
-        found = np.array(moments, dtype=np.float64)
-        found[:floored] = floor
+        shifted = np.array(moments, dtype=np.float64)
+        shifted[:floored] = floor
         free = 3 - floored
         if triangle and free:
-            excess = found[2] - found[0] - found[1]
-            found[floored:2] += excess / free
+            excess = shifted[2] - shifted[0] - shifted[1]
+            shifted[floored:2] += excess / free
             # MuJoCo compares to the last bit.
-            found[2] = min(found[2] - excess / free, found[0] + found[1])
-        if found.min() >= floor and found[0] + found[1] >= found.max():
-            physical.append(found)
-    return min(physical, key=lambda each: float(np.sum((each - moments) ** 2)))
+            shifted[2] = min(shifted[2] - excess / free, shifted[0] + shifted[1])
+        if shifted.min() >= floor and shifted[0] + shifted[1] >= shifted.max():
+            physical.append(shifted)
+    return min(physical, key=lambda candidate: float(np.sum((candidate - moments) ** 2)))
 
 
 _STL_MOST_FACETS = 200_000
@@ -227,19 +227,21 @@ def spec_from_tree(tree: Tree, warnings: Warnings, *, visuals: bool) -> mujoco.M
     spec.compiler.degree = False
     left_out = oversized_visuals(tree) if visuals else frozenset()
     meshes = MeshLibrary(spec, left_out)
-    made: list[mujoco.MjsBody] = []
+    specs: list[mujoco.MjsBody] = []
     for name, body in zip(body_names(tree), tree.bodies, strict=True):
-        parent = spec.worldbody if body.parent < 0 else made[body.parent]
-        made.append(_add_body(parent, name, body, warnings))
+        parent = spec.worldbody if body.parent < 0 else specs[body.parent]
+        specs.append(_add_body(parent, name, body, warnings))
         shapes = [shape for shape in body.shapes if visuals or shape.collides]
         drawn = [
             shape for shape in shapes if shape.kind is not ShapeKind.MESH or meshes.name_of(shape)
         ]
-        wanted, shown = (sum(not shape.collides for shape in each) for each in (shapes, drawn))
+        visual_count, shown_count = (
+            sum(not shape.collides for shape in group) for group in (shapes, drawn)
+        )
         # If a visual mesh is missing, the collision geoms are shown instead.
-        group_of_touching = HIDDEN_GROUP if wanted and shown == wanted else 0
+        collision_group = HIDDEN_GROUP if visual_count and shown_count == visual_count else 0
         for shape in drawn:
-            geom = made[-1].add_geom(
+            geom = specs[-1].add_geom(
                 type=GEOM_TYPES[shape.kind],
                 pos=shape.position,
                 quat=quaternion(shape.rotation),
@@ -252,7 +254,7 @@ def spec_from_tree(tree: Tree, warnings: Warnings, *, visuals: bool) -> mujoco.M
                 geom.size = [*shape.size, 0.0, 0.0][:3]
             if not shape.collides:
                 geom.contype = geom.conaffinity = 0
-            geom.group = group_of_touching if shape.collides else VISUAL_GROUP
+            geom.group = collision_group if shape.collides else VISUAL_GROUP
     for name, joint in tree.joints.items():
         leader, multiplier, offset = joint.mimic or ("", 1.0, 0.0)
         if leader in tree.joints:
@@ -274,7 +276,7 @@ def _add_body(parent: mujoco.MjsBody, name: str, body: Body, warnings: Warnings)
     mass = inertial(body.mass_properties)
     if mass.warning is not None:
         warnings.add(mass.warning, body.name)
-    made = parent.add_body(
+    spec = parent.add_body(
         name=name,
         pos=body.placement.position,
         quat=quaternion(body.placement.rotation),
@@ -286,11 +288,11 @@ def _add_body(parent: mujoco.MjsBody, name: str, body: Body, warnings: Warnings)
     )
     joint = body.joint
     if joint is None:
-        made.add_freejoint()
-        return made
+        spec.add_freejoint()
+        return spec
     limits = np.array([joint.lower, joint.upper])
     limited = bool(np.isfinite(limits).any())
-    made.add_joint(
+    spec.add_joint(
         name=joint.name,
         type=JOINT_TYPES[joint.kind],
         axis=joint.axis,
@@ -301,4 +303,4 @@ def _add_body(parent: mujoco.MjsBody, name: str, body: Body, warnings: Warnings)
         frictionloss=joint.friction,
         armature=joint.armature,
     )
-    return made
+    return spec

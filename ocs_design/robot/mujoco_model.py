@@ -92,7 +92,7 @@ def reduce_to_hulls(spec: mujoco.MjSpec, model: mujoco.MjModel) -> None:
         index = model.mesh(mesh.name).id
         # A box or capsule fitted to a mesh would differ if fitted to its hull.
         if mesh.name not in fitted and model.mesh_graphadr[index] >= 0:
-            name = unused_name(mesh.name, "", {each.name for each in spec.meshes})
+            name = unused_name(mesh.name, "", {other.name for other in spec.meshes})
             # The hull's graph begins with the numbers of its vertices and faces, then for each
             # vertex where its edges begin, then the index of each vertex among the mesh's.
             graph = model.mesh_graph[model.mesh_graphadr[index] :]
@@ -110,7 +110,7 @@ def reduce_to_hulls(spec: mujoco.MjSpec, model: mujoco.MjModel) -> None:
             for geom in spec.geoms:
                 if geom.meshname == mesh.name:
                     geom.meshname = name
-            if [each.file for each in spec.meshes].count(mesh.file) == 1:
+            if [other.file for other in spec.meshes].count(mesh.file) == 1:
                 spec.assets.pop(mesh.file, None)
             spec.delete(mesh)
 
@@ -139,7 +139,7 @@ def take_keyframes(spec: mujoco.MjSpec) -> Sequence[Keyframe]:
     if not spec.keys:
         return ()
     model = compiled(spec)
-    found = []
+    keyframes = []
     for index in range(model.nkey):
         data = mujoco.MjData(model)
         mujoco.mj_resetDataKeyframe(model, data, index)
@@ -153,10 +153,10 @@ def take_keyframes(spec: mujoco.MjSpec) -> Sequence[Keyframe]:
             {actuator.name: actuator.ctrl.copy() for actuator in actuators},
             {actuator.name: _activation(model, data, actuator.id).copy() for actuator in actuators},
         )
-        found.append(keyframe)
+        keyframes.append(keyframe)
     for key in list(spec.keys):
         spec.delete(key)
-    return found
+    return keyframes
 
 
 def put_keyframes(spec: mujoco.MjSpec, keyframes: Iterable[Keyframe]) -> None:
@@ -200,16 +200,16 @@ def free_base(spec: mujoco.MjSpec, base: str, warnings: Warnings) -> None:
         base: name of the robot's root body, a child of the world.
         warnings: receives what was left out.
     """
-    strangers = [body for body in spec.worldbody.bodies if body.name != base]
-    held = [joint for joint in spec.body(base).joints if joint.type != _FREE]
-    is_free = len(spec.body(base).joints) > len(held)
-    ropes = [
+    other_bodies = [body for body in spec.worldbody.bodies if body.name != base]
+    base_joints = [joint for joint in spec.body(base).joints if joint.type != _FREE]
+    is_free = len(spec.body(base).joints) > len(base_joints)
+    world_tendons = [
         tendon
         for tendon in spec.tendons
-        if any(each.target and each.target.parent == spec.worldbody for each in tendon.path)
+        if any(wrap.target and wrap.target.parent == spec.worldbody for wrap in tendon.path)
     ]
-    keyframes = [] if is_free and not (strangers or ropes) else take_keyframes(spec)
-    for rope in ropes:
+    keyframes = [] if is_free and not (other_bodies or world_tendons) else take_keyframes(spec)
+    for rope in world_tendons:
         warnings.add("tendons to the world, left out", rope.name or "one without a name")
         _delete_users(spec, mujoco.mjtObj.mjOBJ_TENDON, rope.name)
         spec.delete(rope)
@@ -217,11 +217,11 @@ def free_base(spec: mujoco.MjSpec, base: str, warnings: Warnings) -> None:
         name = geom.name or "one without a name"
         warnings.add("fixed geoms of the model's world, left out", name)
         delete_geom(spec, geom)
-    for body in strangers:
+    for body in other_bodies:
         warnings.add("other bodies than the robot, left out", body.name)
         spec.delete(body)
     # The reader has warned of ties between the robot and the world.
-    for tie in [each for each in spec.equalities if each.type in TIES]:
+    for tie in [equality for equality in spec.equalities if equality.type in TIES]:
         of_sites = tie.objtype == mujoco.mjtObj.mjOBJ_SITE
         names = (tie.name1, tie.name2)
         ends = [spec.site(name).parent.name for name in names] if of_sites else names
@@ -229,12 +229,12 @@ def free_base(spec: mujoco.MjSpec, base: str, warnings: Warnings) -> None:
         if {"", "world"}.intersection(ends):
             spec.delete(tie)
     # Cameras and lights that track something left out would not compile.
-    there = {body.name for body in spec.bodies}
-    for each in [*spec.cameras, *spec.lights]:
-        if each.targetbody and each.targetbody not in there:
-            each.targetbody, each.mode = "", mujoco.mjtCamLight.mjCAMLIGHT_FIXED
+    body_names = {body.name for body in spec.bodies}
+    for element in [*spec.cameras, *spec.lights]:
+        if element.targetbody and element.targetbody not in body_names:
+            element.targetbody, element.mode = "", mujoco.mjtCamLight.mjCAMLIGHT_FIXED
     if not is_free:
-        for joint in held:
+        for joint in base_joints:
             _delete_users(spec, mujoco.mjtObj.mjOBJ_JOINT, joint.name)
             spec.delete(joint)
         spec.body(base).add_freejoint()
@@ -243,12 +243,12 @@ def free_base(spec: mujoco.MjSpec, base: str, warnings: Warnings) -> None:
 
 def _delete_users(spec: mujoco.MjSpec, kind: mujoco.mjtObj, name: str) -> None:
     """Delete what acts on a joint or tendon, measures or ties it, as it would not compile."""
-    for actuator in [each for each in spec.actuators if each.target == name]:
+    for actuator in [actuator for actuator in spec.actuators if actuator.target == name]:
         spec.delete(actuator)
     for sensor in [s for s in spec.sensors if (s.objtype, s.objname) == (kind, name)]:
         spec.delete(sensor)
-    of_kind = [each for each in spec.equalities if each.objtype == kind]
-    for tie in [each for each in of_kind if name in {each.name1, each.name2}]:
+    of_kind = [equality for equality in spec.equalities if equality.objtype == kind]
+    for tie in [equality for equality in of_kind if name in {equality.name1, equality.name2}]:
         spec.delete(tie)
 
 

@@ -101,23 +101,23 @@ class MeshFinder:
             first.setdefault(package, unquote(inside))
         cures = []
         for package, inside in islice(first.items(), MOST_PACKAGES):
-            found = self._searched(inside)
+            nearby = self._nearby_folder(inside)
             if package:
-                folder = "DIR" if found is None else shlex.quote(str(found))
+                folder = "DIR" if nearby is None else shlex.quote(str(nearby))
                 cures.append(f"give --package-path {package}={folder}")
-            elif found is None:
+            elif nearby is None:
                 cures.append(f"put them where the file names them, below {self.folder}")
             else:
-                cures.append(f"put the robot's file into {found}, where they are")
+                cures.append(f"put the robot's file into {nearby}, where they are")
         return "; ".join(cures)
 
-    def _searched(self, inside: str) -> Path | None:
+    def _nearby_folder(self, inside: str) -> Path | None:
         """The nearest folder that contains this file, among a bounded number."""
         levels = islice((self.folder, *self.folder.parents), UPWARDS + 1)
-        near = (_below(above, DOWNWARDS) for above in levels if above.name)
+        near = (_folders_below(above, DOWNWARDS) for above in levels if above.name)
         site = Path(sysconfig.get_path("purelib"), "cmeel.prefix", "share")
-        ros = (*_environment_paths("ROS_PACKAGE_PATH"), *_shares(), site)
-        installed = (_below(folder, 1) for folder in ros)
+        ros = (*_environment_paths("ROS_PACKAGE_PATH"), *_share_folders(), site)
+        installed = (_folders_below(folder, 1) for folder in ros)
         for folders in (near, installed):
             for folder in islice(chain.from_iterable(folders), MOST_FOLDERS):
                 try:
@@ -135,7 +135,7 @@ class MeshFinder:
             yield entry / package
             if entry.name == package:
                 yield entry
-        for share in _shares():
+        for share in _share_folders():
             yield share / package
         for above in (self.folder, *self.folder.parents):
             yield above / package
@@ -152,21 +152,21 @@ def _environment_paths(variable: str) -> list[Path]:
     return [Path(entry) for entry in os.environ.get(variable, "").split(os.pathsep) if entry]
 
 
-def _shares() -> list[Path]:
+def _share_folders() -> list[Path]:
     """Folders of the packages installed by ROS or in a CMake prefix."""
     variables = ("AMENT_PREFIX_PATH", "CMAKE_PREFIX_PATH")
-    return [entry / "share" for each in variables for entry in _environment_paths(each)]
+    return [entry / "share" for variable in variables for entry in _environment_paths(variable)]
 
 
-def _below(folder: Path, levels: int) -> Iterator[Path]:
+def _folders_below(folder: Path, levels: int) -> Iterator[Path]:
     """A folder and its subfolders down to some level, without hidden ones."""
     yield folder
     if levels == 0:
         return
     try:
-        inner = sorted(Path(each) for each in os.scandir(folder) if each.is_dir())
+        inner = sorted(Path(entry) for entry in os.scandir(folder) if entry.is_dir())
     except OSError:
         return
-    for each in inner:
-        if not each.name.startswith("."):
-            yield from _below(each, levels - 1)
+    for subfolder in inner:
+        if not subfolder.name.startswith("."):
+            yield from _folders_below(subfolder, levels - 1)

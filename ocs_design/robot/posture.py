@@ -60,13 +60,13 @@ def resolve_posture(
     warnings: tuple[str, ...] = ()
     chosen: Mapping[str, float] = {}
     if name == STAND:
-        found = stand(tree, trunk, legs)
-        if found is None:
+        standing = stand(tree, trunk, legs)
+        if standing is None:
             raise RobotError(
                 "no legs were found, so there is no posture 'stand'",
                 hint="use --posture zero, a posture named in the file, or --joint NAME=VALUE",
             )
-        chosen, warnings = found.posture, found.warnings
+        chosen, warnings = standing.posture, standing.warnings
     elif name != ZERO:
         if name not in tree.named_postures:
             known = [ZERO, *([STAND] if legs else []), *tree.named_postures]
@@ -88,8 +88,8 @@ def resolve_posture(
     values = tree.complete({**tree.complete(chosen), **joints})
     outside = [
         joint
-        for joint, each in tree.joints.items()
-        if not each.lower - _LIMIT_TOLERANCE <= values[joint] <= each.upper + _LIMIT_TOLERANCE
+        for joint, limits in tree.joints.items()
+        if not limits.lower - _LIMIT_TOLERANCE <= values[joint] <= limits.upper + _LIMIT_TOLERANCE
     ]
     if outside:
         warnings += (f"{OUTSIDE} {some_of(outside)}",)
@@ -121,12 +121,12 @@ def posture_sensitivity(robot: Robot) -> Mapping[str, MassProperties]:
     tree, legs = robot.tree, robot.legs
     postures = [(f"nominal ({robot.posture_name})", robot.posture), (ZERO, {})]
     for share in _SHARES if legs else ():
-        found = stand(tree, robot.trunk, legs, share)
-        if found is not None and found.share == share and not found.warnings:
-            postures.append((f"{STAND} at {share:.0%} of the leg", found.posture))
-    found = stand(tree, robot.trunk, legs, SHARE_OF_LEG)
-    outwards = {} if found is None else _outward_joints(robot)
-    usual, joints = {} if found is None else found.posture, tree.joints
+        standing = stand(tree, robot.trunk, legs, share)
+        if standing is not None and standing.share == share and not standing.warnings:
+            postures.append((f"{STAND} at {share:.0%} of the leg", standing.posture))
+    standing = stand(tree, robot.trunk, legs, SHARE_OF_LEG)
+    outwards = {} if standing is None else _outward_joints(robot)
+    usual, joints = {} if standing is None else standing.posture, tree.joints
     for angle in _ABDUCTIONS if outwards else ():
         turned = {name: usual[name] + sign * angle for name, sign in outwards.items()}
         if all(joints[name].lower <= value <= joints[name].upper for name, value in turned.items()):
@@ -144,10 +144,10 @@ def posture_sensitivity(robot: Robot) -> Mapping[str, MassProperties]:
 def _outward_joints(robot: Robot) -> Mapping[str, float]:
     """Abduction joint of each leg and the sign of outward rotation; empty if a leg has none."""
     geometries = leg_geometries(robot.tree, robot.trunk, robot.legs)
-    middle = np.mean([each.plane.hip for each in geometries], axis=0)
-    found = {}
-    for each in geometries:
-        plane, chain = each.plane, each.chain
+    middle = np.mean([geometry.plane.hip for geometry in geometries], axis=0)
+    signs = {}
+    for geometry in geometries:
+        plane, chain = geometry.plane, geometry.chain
         zero = chain.pose(np.zeros(len(chain.driven)))
         knee = plane.pitch[min(1, len(plane.pitch) - 1)]
         outwards = plane.axis * (plane.axis @ (plane.hip - middle))
@@ -157,5 +157,5 @@ def _outward_joints(robot: Robot) -> Mapping[str, float]:
         if first is None:
             return {}
         column, axis = first
-        found[chain.names[column]] = float(np.sign(np.cross(axis, -each.up) @ outwards))
-    return found
+        signs[chain.names[column]] = float(np.sign(np.cross(axis, -geometry.up) @ outwards))
+    return signs

@@ -15,7 +15,7 @@ from ocs_design.common.units import format_quantity
 from ocs_design.common.wording import some_of
 from ocs_design.robot.checks import plausibility_warnings
 from ocs_design.robot.leg_geometry import BASE_FRAME, convention_warnings, with_base_frame
-from ocs_design.robot.links import Warnings, check_whole
+from ocs_design.robot.links import Warnings, check_total_mass
 from ocs_design.robot.meshes import MESHES, lacks_mesh, trunk_top, unmeasured, with_y_up
 from ocs_design.robot.packages import MeshFinder
 from ocs_design.robot.posture import resolve_posture, unknown_name
@@ -57,11 +57,11 @@ def find_srdfs(folder: Path, stem: str, robot_name: str) -> list[Path]:
     """
     named = sorted([*folder.glob("*.srdf"), *folder.glob("../srdf/*.srdf")])
     # Reading a pipe of that name would block.
-    found = [path for path in named if path.is_file()]
-    if same_stem := [path for path in found if path.stem == stem]:
+    files = [path for path in named if path.is_file()]
+    if same_stem := [path for path in files if path.stem == stem]:
         return same_stem[:1]
     same_robot = []
-    for path in found:
+    for path in files:
         with suppress(RobotError):
             if parse_xml(read_source(path).content).get("name") == robot_name:
                 same_robot.append(path)
@@ -183,8 +183,8 @@ def _load(read: Source, package_paths: Mapping[str, Path], named: Sequence[str])
         cure = finder.cure()
         warnings.add(f"{len(finder.missing)} meshes were not found, the first is {first}: {cure}")
     postures = postures_beside(read, tree, warnings)
-    every = (*tree.warnings, *warnings.sentences())
-    tree = replace(tree, named_postures=postures, warnings=every)
+    all_warnings = (*tree.warnings, *warnings.sentences())
+    tree = replace(tree, named_postures=postures, warnings=all_warnings)
     return Loaded(tree, RobotFormat.URDF, content, read.sha256, read.path_text, cure)
 
 
@@ -214,22 +214,29 @@ def read_robot(
         if name not in tree.body_of_link:
             raise unknown_name("link", name, tree.body_of_link)
     recognition = recognise(tree, trunk=trunk, legs=legs)
-    found = recognition.reading.legs
+    found_legs = recognition.reading.legs
     if trunk is None:
         name = recognition.reading.trunk
-        tree, mount, of_frame = with_base_frame(tree, name, found)
+        tree, mount, frame_warnings = with_base_frame(tree, name, found_legs)
         base = name if mount is None else BASE_FRAME
     else:
-        base, mount, of_frame = trunk, None, ()
+        base, mount, frame_warnings = trunk, None, ()
     if mount is None:
-        of_frame = tuple(convention_warnings(tree, base, found))
-    chosen = resolve_posture(tree, base, found, posture, joints or {})
-    weighed = tree.locked_mass_properties(chosen.values, base)
-    check_whole(weighed, tree)
-    unlikely = plausibility_warnings(tree, base, found, chosen.values, weighed)
-    liberties = recognition.reading.liberties
-    assumed = _assumed_heights(tree, base, found, chosen.standing_height)
-    warnings = (*tree.warnings, *liberties, *of_frame, *chosen.warnings, *assumed, *unlikely)
+        frame_warnings = tuple(convention_warnings(tree, base, found_legs))
+    resolved = resolve_posture(tree, base, found_legs, posture, joints or {})
+    properties = tree.locked_mass_properties(resolved.values, base)
+    check_total_mass(properties, tree)
+    implausible = plausibility_warnings(tree, base, found_legs, resolved.values, properties)
+    simplifications = recognition.reading.simplifications
+    assumed = _assumed_heights(tree, base, found_legs, resolved.standing_height)
+    warnings = (
+        *tree.warnings,
+        *simplifications,
+        *frame_warnings,
+        *resolved.warnings,
+        *assumed,
+        *implausible,
+    )
     return Robot(
         name=tree.name,
         source=loaded.source,
@@ -239,11 +246,11 @@ def read_robot(
         tree=tree,
         trunk=base,
         floating_base=tree.bodies[0].name,
-        posture=chosen.values,
-        posture_name=chosen.name,
-        mass_properties=weighed,
-        legs=found,
-        standing_height=chosen.standing_height,
+        posture=resolved.values,
+        posture_name=resolved.name,
+        mass_properties=properties,
+        legs=found_legs,
+        standing_height=resolved.standing_height,
         warnings=tuple(dict.fromkeys(warnings)),
         mount=mount,
         recognition=recognition,

@@ -15,7 +15,7 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import RobotError
 from ocs_design.common.wording import some_of
 from ocs_design.robot.legs import frame_link, leg_of
-from ocs_design.robot.limbs import EVEN, Anatomy, Limb, reach_alike, reach_of, sets_of
+from ocs_design.robot.limbs import EVEN_TOLERANCE, Anatomy, Limb, reach_alike, reach_of, sets_of
 from ocs_design.robot.robot import (
     CLOSED,
     JOINED,
@@ -35,14 +35,14 @@ SURE = 0.8
 _LIKELY = 0.3
 """Least confidence at which a reading is offered as an answer."""
 
-_SHOWN = 0.5
+_SHOWN_CONFIDENCE = 0.5
 """Least confidence at which an uncertain reading is shown at all."""
 
 
 _MOST_ANSWERS = 3
 """Most answers that are shown."""
 
-_STATED = (Evidence("stated", "", holds=True),)
+_SPECIFIED = (Evidence("stated", "", holds=True),)
 
 _FIXED = "the robot is fixed to the world in its file"
 
@@ -66,58 +66,60 @@ def recognise(
     """
     anatomy = _Readings(tree)
     given = (("trunk", trunk is not None), ("legs", legs is not None))
-    stated = frozenset(what for what, is_given in given if is_given)
+    specified = frozenset(what for what, is_given in given if is_given)
     if legs is not None:
         unaided = recognise(tree, trunk=trunk)
-        first = next((each.legs for each in (unaided.reading, *unaided.likely) if each.legs), ())
-        found = unaided.reading.legs if legs else ()
+        first = next(
+            (reading.legs for reading in (unaided.reading, *unaided.likely) if reading.legs), ()
+        )
+        found_legs = unaided.reading.legs if legs else ()
         if not legs:
-            named = Reading(trunk or anatomy.heaviest, (), _STATED)
-        elif {leg.name for leg in found} == set(legs):
-            named = anatomy.stated(trunk, found)
+            named = Reading(trunk or anatomy.heaviest, (), _SPECIFIED)
+        elif {leg.name for leg in found_legs} == set(legs):
+            named = anatomy.specified(trunk, found_legs)
         else:
             named = anatomy.named(trunk, legs, anatomy.up_of(first[0]) if first else None)
         # With a spine, the legs do not determine which of its ends carries the device.
         ends = {leg.base for leg in named.legs} if trunk is None else set()
         heaviest = sorted(ends, key=lambda body: -anatomy.masses[body].mass)
         spine = tuple(
-            Reading(frame_link(tree.bodies[i]), named.legs, _STATED, _SPINE) for i in heaviest
+            Reading(frame_link(tree.bodies[i]), named.legs, _SPECIFIED, _SPINE) for i in heaviest
         )
-        return Recognition(named, spine if len(spine) > 1 else (), stated)
+        return Recognition(named, spine if len(spine) > 1 else (), specified)
     readings = anatomy.readings()
     if trunk is not None:
         # If the trunk is named, doubts about it are settled.
         body = tree.body_of_link[trunk]
-        readings = [anatomy.on_trunk(each, trunk, body) for each in readings]
-    likely = [each for each in readings if each.confidence >= _LIKELY]
+        readings = [anatomy.on_trunk(reading, trunk, body) for reading in readings]
+    likely = [reading for reading in readings if reading.confidence >= _LIKELY]
     # Unconvincing limbs with names of arms are arms, but not those with names of legs.
-    arms = not any(_speaks(each, NAMES) for each in readings) and all(
-        _speaks(each, NAMES) is False for each in likely
+    arms = not any(_sign_holds(reading, NAMES) for reading in readings) and all(
+        _sign_holds(reading, NAMES) is False for reading in likely
     )
-    none = anatomy.without_legs(trunk, likely=not arms)
-    best = _best(readings) if readings else none
+    legless = anatomy.without_legs(trunk, likely=not arms)
+    best = _best(readings) if readings else legless
     if best.confidence >= SURE and best.legs:
-        return Recognition(best, (), stated)
-    if none.confidence >= SURE and arms:
-        return Recognition(none, (), stated)
-    asked = sorted(
-        {id(each): each for each in (best, *likely)}.values(),
-        key=lambda each: (not each.legs, -each.confidence),
+        return Recognition(best, (), specified)
+    if legless.confidence >= SURE and arms:
+        return Recognition(legless, (), specified)
+    offered = sorted(
+        {id(reading): reading for reading in (best, *likely)}.values(),
+        key=lambda reading: (not reading.legs, -reading.confidence),
     )
-    if all(each.legs for each in asked):
-        asked.append(none)
+    if all(reading.legs for reading in offered):
+        offered.append(legless)
     root = frame_link(tree.bodies[0])
-    if trunk is None and none in asked and none.trunk != root:
+    if trunk is None and legless in offered and legless.trunk != root:
         # An upper body's heaviest link is its chest, but its pelvis may be the intended trunk.
-        asked.append(anatomy.without_legs(None, likely=not arms, body=root))
+        offered.append(anatomy.without_legs(None, likely=not arms, body=root))
     # Commands that only show the robot, and need no certainty, show the likeliest reading.
-    shown = asked[0] if asked[0].confidence >= _SHOWN else none
-    return Recognition(shown, tuple(asked), stated)
+    shown = offered[0] if offered[0].confidence >= _SHOWN_CONFIDENCE else legless
+    return Recognition(shown, tuple(offered), specified)
 
 
-def question_about(found: Recognition) -> RobotError:
+def question_about(recognition: Recognition) -> RobotError:
     """Question to the user about an uncertain robot, with the likely answers."""
-    best = found.likely[0]
+    best = recognition.likely[0]
     against = [
         *(doubt.what for doubt in best.doubts),
         *(sign.against for sign in best.signs if sign.holds is False),
@@ -129,8 +131,8 @@ def question_about(found: Recognition) -> RobotError:
         else f"no legs, and '{best.trunk}' as the trunk"
     )
     answers = "; or ".join(
-        f"{each.options} ({each.confidence:.0%})" if each.legs else each.options
-        for each in found.likely[:_MOST_ANSWERS]
+        f"{reading.options} ({reading.confidence:.0%})" if reading.legs else reading.options
+        for reading in recognition.likely[:_MOST_ANSWERS]
     )
     none = f"; or --legs {NO_LEGS}" if f"--legs {NO_LEGS}" not in answers else ""
     why = "; ".join(against) or "nothing certain"
@@ -141,22 +143,22 @@ def question_about(found: Recognition) -> RobotError:
     )
 
 
-def _speaks(reading: Reading, what: str) -> bool | None:
+def _sign_holds(reading: Reading, what: str) -> bool | None:
     """Whether one sign of a reading holds."""
     return next((sign.holds for sign in reading.signs if sign.what == what), None)
 
 
 def _best(readings: Sequence[Reading]) -> Reading:
     """The reading of highest confidence, or a sufficiently confident one with more legs."""
-    best = max(readings, key=lambda each: each.confidence)
+    best = max(readings, key=lambda reading: reading.confidence)
     bodies = {leg.body for leg in best.legs}
     larger = [
-        each
-        for each in readings
-        if bodies < {leg.body for leg in each.legs}
-        and each.confidence >= min(best.confidence, SURE)
+        reading
+        for reading in readings
+        if bodies < {leg.body for leg in reading.legs}
+        and reading.confidence >= min(best.confidence, SURE)
     ]
-    return max(larger or [best], key=lambda each: (each.confidence, len(each.legs)))
+    return max(larger or [best], key=lambda reading: (reading.confidence, len(reading.legs)))
 
 
 _UPS = np.eye(3)[[2, 1, 0]]
@@ -182,52 +184,52 @@ class _Readings(Anatomy):
 
     def readings(self) -> list[Reading]:
         """Every reading with legs, each set of feet once."""
-        found: dict[frozenset[int], Reading] = {}
+        by_feet: dict[frozenset[int], Reading] = {}
         # Files of other conventions are rare: other axes are tried only if nothing hangs along z.
         hanging = ((up, limbs) for up in _UPS if (limbs := self.hanging(up)))
-        upright, known = next(hanging, (_UPS[0], []))
-        if known:
-            upright = self._upright(known, upright)
-            known = [self.limb(limb.base, limb.last, upright) for limb in known]
-        for up in upright[None] if known else _UPS:
+        upright, hanging_limbs = next(hanging, (_UPS[0], []))
+        if hanging_limbs:
+            upright = self._upright(hanging_limbs, upright)
+            hanging_limbs = [self.limb(limb.base, limb.last, upright) for limb in hanging_limbs]
+        for up in upright[None] if hanging_limbs else _UPS:
             limbs = self.limbs(up)
-            sets = [each for each in sets_of(limbs) if self.may_stand(each, up)]
+            sets = [group for group in sets_of(limbs) if self.may_stand(group, up)]
             # Legs that differ, such as a prosthesis, are recognised by their names alone.
-            called = [limb for limb in limbs if self.names([limb])]
-            bases = {each[0].base for each in sets}
-            called = [limb for limb in called if not bases & self.inside([limb])]
-            for base in sorted({limb.base for limb in called}):
-                unlike = [limb for limb in called if limb.base == base]
+            named = [limb for limb in limbs if self.names([limb])]
+            bases = {group[0].base for group in sets}
+            named = [limb for limb in named if not bases & self.inside([limb])]
+            for base in sorted({limb.base for limb in named}):
+                unlike = [limb for limb in named if limb.base == base]
                 if unlike not in sets:
                     sets.append(unlike)
-            sets += [known] if known else []
-            sets = [self.one_of_each_pair(each, up) for each in sets]
+            sets += [hanging_limbs] if hanging_limbs else []
+            sets = [self.one_of_each_pair(group, up) for group in sets]
             for chosen in (*sets, *self.spines(sets, up), *self.single(limbs, up)):
                 feet = frozenset(limb.last for limb in chosen)
                 ordered = sorted(chosen, key=lambda limb: limb.last)
                 legs = tuple(
                     leg_of(self.tree, limb.base, limb.last, up, self.placements) for limb in ordered
                 )
-                if feet in found or any(leg.length <= 0.0 for leg in legs):
+                if feet in by_feet or any(leg.length <= 0.0 for leg in legs):
                     continue
                 trunk = self._spine_trunk([limb.base for limb in chosen])
                 signs, doubts = self._signs(chosen, sets, up)
                 reading = Reading(frame_link(self.tree.bodies[trunk]), legs, signs, doubts)
                 # If `up` is wrong, some limbs hang by chance.
-                if up[2] == 1.0 or known or _speaks(reading, NAMES):
-                    found[feet] = reading
-            if any(each.confidence >= _LIKELY for each in found.values()):
+                if up[2] == 1.0 or hanging_limbs or _sign_holds(reading, NAMES):
+                    by_feet[feet] = reading
+            if any(candidate.confidence >= _LIKELY for candidate in by_feet.values()):
                 break
-        readings = list(found.values())
+        readings = list(by_feet.values())
         # For robots with a spine, its other ends as trunk.
-        for each in found.values():
-            spine = any(doubt.what == SPINE for doubt in each.doubts)
-            for base in sorted({leg.base for leg in each.legs}) if spine else ():
+        for candidate in by_feet.values():
+            spine = any(doubt.what == SPINE for doubt in candidate.doubts)
+            for base in sorted({leg.base for leg in candidate.legs}) if spine else ():
                 name = frame_link(self.tree.bodies[base])
-                if name != each.trunk:
-                    lighter = Doubt(f"'{name}' is lighter than '{each.trunk}'", 0.9)
-                    doubts = (*each.doubts, lighter)
-                    readings.append(Reading(name, each.legs, each.signs, doubts))
+                if name != candidate.trunk:
+                    lighter = Doubt(f"'{name}' is lighter than '{candidate.trunk}'", 0.9)
+                    doubts = (*candidate.doubts, lighter)
+                    readings.append(Reading(name, candidate.legs, candidate.signs, doubts))
         return readings
 
     def _upright(self, limbs: Sequence[Limb], up: FloatArray) -> FloatArray:
@@ -241,11 +243,11 @@ class _Readings(Anatomy):
             legs = (leg_of(self.tree, x.base, x.last, axis, self.placements) for x in limbs)
             return [leg.length for leg in legs]
 
-        lie = np.sum([limb.hip - limb.tip for limb in limbs], axis=0)
-        axis = int(np.argmax(np.abs(lie)))
-        along = np.asarray(np.eye(3)[axis] * np.sign(lie[axis]))
-        lies = along @ up < 0.5 and min(lengths(along)) > _LONGER * max(lengths(up))
-        return along if lies else up
+        drop = np.sum([limb.hip - limb.tip for limb in limbs], axis=0)
+        axis = int(np.argmax(np.abs(drop)))
+        along = np.asarray(np.eye(3)[axis] * np.sign(drop[axis]))
+        is_lying = along @ up < 0.5 and min(lengths(along)) > _LONGER * max(lengths(up))
+        return along if is_lying else up
 
     def without_legs(self, trunk: str | None, *, likely: bool, body: str | None = None) -> Reading:
         """The reading of a robot without legs.
@@ -274,7 +276,9 @@ class _Readings(Anatomy):
         )
         if trunk is not None:
             return Reading(name, (), signs[:1])
-        chain = len(self.tree.bodies) > 2 and all(len(each) < 2 for each in self.children.values())
+        chain = len(self.tree.bodies) > 2 and all(
+            len(children) < 2 for children in self.children.values()
+        )
         doubts = (
             *((Doubt("the robot is one chain, as an arm is", 0.6),) if chain and index else ()),
             *((Doubt(_FIXED, 0.75),) if self.floats() is False else ()),
@@ -283,7 +287,7 @@ class _Readings(Anatomy):
 
     def on_trunk(self, reading: Reading, trunk: str, body: int) -> Reading:
         """Legs as found, on a trunk that the user named."""
-        doubts = tuple(each for each in reading.doubts if each.what != SPINE)
+        doubts = tuple(doubt for doubt in reading.doubts if doubt.what != SPINE)
         ancestors = self.tree.ancestors
         if any(
             body != leg.base and body in ancestors(leg.body) and body not in ancestors(leg.base)
@@ -311,7 +315,11 @@ class _Readings(Anatomy):
                     f"'{name}' cannot be a leg: no joint moves it relative to the trunk",
                     hint="name the feet with --legs, and the link that carries them with --trunk",
                 )
-        up = max(_UPS, key=lambda axis: self._hang(bodies, bases, axis)) if up is None else up
+        up = (
+            max(_UPS, key=lambda axis: self._hanging_score(bodies, bases, axis))
+            if up is None
+            else up
+        )
         pairs = sorted(zip(bodies, bases, strict=True))
         legs = tuple(leg_of(self.tree, base, body, up, self.placements) for body, base in pairs)
         for leg in legs:
@@ -320,26 +328,26 @@ class _Readings(Anatomy):
                     f"'{leg.name}' cannot be a leg: it does not reach below its hip",
                     hint="name the feet with --legs; `inspect ROBOT --picture FILE.svg` draws all",
                 )
-        return self.stated(trunk, legs)
+        return self.specified(trunk, legs)
 
-    def closed(self, chosen: Sequence[Limb], up: FloatArray) -> str:
+    def closed_chain(self, chosen: Sequence[Limb], up: FloatArray) -> str:
         """Sentence on how limbs form closed chains; empty: they do not."""
         if self.share_hips(chosen, up):
             return CLOSED
         return JOINED if any(map(self.is_joined, chosen)) else ""
 
-    def stated(self, trunk: str | None, legs: Sequence[Leg]) -> Reading:
+    def specified(self, trunk: str | None, legs: Sequence[Leg]) -> Reading:
         """The reading with legs that the user specified."""
         up, bases = self.up_of(legs[0]), [leg.base for leg in legs]
         limbs = [self.limb(leg.base, leg.body, up) for leg in legs]
         doubts = (
             *((Doubt(SPINE, 1.0),) if len(set(bases)) > 1 else ()),
-            *((Doubt(how, 1.0),) if (how := self.closed(limbs, up)) else ()),
+            *((Doubt(how, 1.0),) if (how := self.closed_chain(limbs, up)) else ()),
         )
         name = trunk or frame_link(self.tree.bodies[self._spine_trunk(bases)])
-        return Reading(name, tuple(legs), _STATED, doubts)
+        return Reading(name, tuple(legs), _SPECIFIED, doubts)
 
-    def _hang(self, bodies: Sequence[int], bases: Sequence[int], up: FloatArray) -> float:
+    def _hanging_score(self, bodies: Sequence[int], bases: Sequence[int], up: FloatArray) -> float:
         """Score of an axis as up: how far the legs hang and reach along it, with z preferred."""
         total = 0.5 * up[2] - 0.1 * up[0]
         for body, base in zip(bodies, bases, strict=True):
@@ -403,12 +411,12 @@ class _Readings(Anatomy):
             Evidence(
                 "they reach equally deep",
                 "they do not reach equally deep",
-                reach_alike(chosen, EVEN) if several else None,
+                reach_alike(chosen, EVEN_TOLERANCE) if several else None,
             ),
             Evidence(
                 "their ends stand level in a posture of the file",
                 "in no posture of the file do their ends stand level below the hips",
-                self.together(chosen, up),
+                self.stand_level(chosen, up),
             ),
             Evidence(
                 "the centre of mass is between them",
@@ -421,7 +429,7 @@ class _Readings(Anatomy):
         doubts: list[Doubt] = []
         if len({limb.base for limb in chosen}) > 1:
             doubts.extend(_SPINE)
-        if how := self.closed(chosen, up):
+        if how := self.closed_chain(chosen, up):
             doubts.append(Doubt(how, 0.5))
         if self.names(chosen) is False:
             doubts.append(Doubt("limbs with such names are rarely legs", 0.9))
@@ -433,7 +441,10 @@ class _Readings(Anatomy):
             self.tree.bodies[limb.last].name
             for limb in self.limbs(up)
             if limb.last not in inside
-            and any((limb.base, limb.hinges) == (each.base, each.hinges) for each in chosen)
+            and any(
+                (limb.base, limb.hinges) == (chosen_limb.base, chosen_limb.hinges)
+                for chosen_limb in chosen
+            )
             and self.names([limb]) is True
         ]
         if left_out and not self.share_hips(chosen, up):
@@ -444,9 +455,9 @@ class _Readings(Anatomy):
             for rival in sets
             if not self.inside(rival) & inside
             and not any(limb.base in inside for limb in rival)
-            and reach_alike((*rival, *chosen), EVEN)
+            and reach_alike((*rival, *chosen), EVEN_TOLERANCE)
             and self.mirrored(rival, up)
-            and (self.names(rival) is not False or self.together((*chosen, *rival), up))
+            and (self.names(rival) is not False or self.stand_level((*chosen, *rival), up))
         ]
         if rivals:
             names = some_of([self.tree.bodies[limb.last].name for limb in rivals[0]])

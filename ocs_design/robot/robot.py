@@ -126,14 +126,14 @@ class Reading:
         """Share of the known signs that hold, by weight, times the factors of the doubts."""
         known = [sign for sign in self.signs if sign.holds is not None]
         total = sum(sign.weight for sign in known)
-        held = sum(sign.weight for sign in known if sign.holds)
-        share = held / total if total else 0.5
+        holding = sum(sign.weight for sign in known if sign.holds)
+        share = holding / total if total else 0.5
         return share * float(np.prod([doubt.factor for doubt in self.doubts]))
 
     @property
-    def liberties(self) -> tuple[str, ...]:
+    def simplifications(self) -> tuple[str, ...]:
         """Simplifications of the real robot, one sentence each."""
-        return tuple(each.what for each in self.doubts if each.what in {SPINE, CLOSED, JOINED})
+        return tuple(doubt.what for doubt in self.doubts if doubt.what in {SPINE, CLOSED, JOINED})
 
     @property
     def options(self) -> str:
@@ -153,7 +153,7 @@ class Recognition:
 
     reading: Reading
     likely: tuple[Reading, ...] = ()
-    stated: frozenset[str] = field(default_factory=frozenset)
+    specified: frozenset[str] = field(default_factory=frozenset)
 
     @property
     def sure(self) -> bool:

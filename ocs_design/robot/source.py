@@ -88,10 +88,10 @@ def _read_file(path: Path, name: str) -> bytes:
             hint = "it is a web address: download the file and its meshes first"
             raise RobotError(f"{name} is not a file", hint=hint) from error
         try:
-            beside = sorted(
-                path.absolute().parent.iterdir(), key=lambda each: each.suffix == path.suffix
+            siblings = sorted(
+                path.absolute().parent.iterdir(), key=lambda sibling: sibling.suffix == path.suffix
             )
-            name_of_stem = {each.stem: each.name for each in beside}
+            name_of_stem = {sibling.stem: sibling.name for sibling in siblings}
         except OSError:
             hint = f"the folder {path.parent} does not exist either"
         else:
@@ -100,8 +100,10 @@ def _read_file(path: Path, name: str) -> bytes:
                 hint = f"did you mean {path.with_name(name_of_stem[close[0]])}?"
         raise RobotError(f"{path} does not exist", hint=hint) from error
     except IsADirectoryError as error:
-        found = _likely_robots(path)
-        hint = f"give a file, such as {found[0]}" if found else "give the URDF or MJCF file itself"
+        robots = _likely_robots(path)
+        hint = (
+            f"give a file, such as {robots[0]}" if robots else "give the URDF or MJCF file itself"
+        )
         raise RobotError(f"{path} is a folder", hint=hint) from error
     except PermissionError as error:
         raise RobotError(
@@ -118,11 +120,13 @@ def _likely_robots(folder: Path) -> list[Path]:
     """Likely robot files in a folder and its subfolders, as in packages; best first."""
     inside = (*folder.glob("*"), *folder.glob("[!.]*/*"))
     suffixes = {".urdf", ".xacro", ".xml", ".gz"}
-    likely = (each for each in inside if each.suffix in suffixes and each.name not in _OF_PACKAGES)
-    return sorted(likely, key=lambda each: (len(each.parts), ".urdf" not in each.name, each))
+    likely = (
+        path for path in inside if path.suffix in suffixes and path.name not in _PACKAGE_FILES
+    )
+    return sorted(likely, key=lambda path: (len(path.parts), ".urdf" not in path.name, path))
 
 
-_OF_PACKAGES = {"package.xml", "plugin.xml", "plugins.xml"}
+_PACKAGE_FILES = {"package.xml", "plugin.xml", "plugins.xml"}
 """Other XML files of a ROS package than its robot."""
 
 

@@ -14,16 +14,16 @@ from ocs_design.robot.legs import LegPlane
 from ocs_design.robot.robot import Leg
 from ocs_design.robot.tree import Tree
 
-REACHED = 1e-3
+POSITION_TOLERANCE = 1e-3
 """Distance within which a foot is in place [m]."""
 
-FLAT = 1e-2
+SOLE_TOLERANCE = 1e-2
 """Angle within which a sole is flat [rad]."""
 
 LANDING_TOLERANCE = np.radians(5.0)
 """Largest roll and pitch at touchdown, and largest angle that a flip may fall short of [rad]."""
 
-_SIMPLICITY = 1e-3
+_REGULARISATION = 1e-3
 """Weight of staying near the start, relative to the foot's error over the leg's length.
 
 It only settles what the foot leaves free (a hip's yaw): the foot misses by 1e-6 of that length.
@@ -49,7 +49,7 @@ class Stance:
     @property
     def good(self) -> bool:
         """Whether foot and sole are where they should be."""
-        return self.miss < REACHED and self.tilt < FLAT
+        return self.miss < POSITION_TOLERANCE and self.tilt < SOLE_TOLERANCE
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,7 +81,7 @@ class StanceProblem:
         from scipy.optimize import least_squares  # noqa: PLC0415
 
         lower, upper, columns = self.chain.lower, self.chain.upper, list(self.plane.columns)
-        found: list[Stance] = []
+        stances: list[Stance] = []
         stretched = self.chain.stretched(self.foot, -self.up, self.plane.pitch)
         # Bend that shortens a straight leg to the target's distance.
         reach = float(np.linalg.norm(self.target - self.plane.hip))
@@ -111,9 +111,9 @@ class StanceProblem:
             stance = self._stance(np.round(self._values(solution.x), 9) + 0.0)
             if stance.good and stance.knee_ahead >= 0.0:
                 return stance
-            found.append(stance)
+            stances.append(stance)
         return min(
-            found, key=lambda s: (not s.good, s.good and s.knee_ahead < 0.0, s.miss + s.tilt)
+            stances, key=lambda s: (not s.good, s.good and s.knee_ahead < 0.0, s.miss + s.tilt)
         )
 
     @cached_property
@@ -149,7 +149,7 @@ class StanceProblem:
         miss = (pose.point(self.foot) - self.target) / self.plane.length
         tilt = pose.end.rotation @ self._sole_up - self.up
         parts = [miss, tilt] if self.plane.flat else [miss]
-        return np.concatenate([*parts, _SIMPLICITY * (free - start)])
+        return np.concatenate([*parts, _REGULARISATION * (free - start)])
 
     def _jacobian(self, free: FloatArray, start: FloatArray) -> FloatArray:
         """Derivative of `_residual`, shape (residuals, free)."""
@@ -159,13 +159,13 @@ class StanceProblem:
         tilt = self.chain.direction_jacobian(pose, pose.end.rotation @ self._sole_up)
         parts = [miss, tilt] if self.plane.flat else [miss]
         rows = np.concatenate(parts)[:, list(self.plane.columns)]
-        return np.concatenate([rows, _SIMPLICITY * np.eye(len(free))])
+        return np.concatenate([rows, _REGULARISATION * np.eye(len(free))])
 
 
-_SWEEPS = 10
+_NEWTON_STEPS = 10
 """Most Newton steps from one height to the next."""
 
-_STILL = 1e-12
+_STEP_TOLERANCE = 1e-12
 """Size of all joints' steps below which the search ends [rad or m]."""
 
 _DAMPING = 1e-3
@@ -187,25 +187,25 @@ def lifted(
     values = posture
     at_rest = chain.pose(posture).point(foot)
     damping = (_DAMPING * length) ** 2 * np.eye(3)
-    found = []
+    postures = []
     for height in heights:
         target = at_rest + np.array([0.0, 0.0, height])
-        for _ in range(_SWEEPS):
+        for _ in range(_NEWTON_STEPS):
             pose = chain.pose(values)
             miss = target - pose.point(foot)
             jacobian = chain.point_jacobian(pose, pose.point(foot))
             step = jacobian.T @ np.linalg.solve(jacobian @ jacobian.T + damping, miss)
             values = np.clip(values + step, chain.lower, chain.upper)
-            if np.abs(step).max() < _STILL:
+            if np.abs(step).max() < _STEP_TOLERANCE:
                 break
-        found.append(values)
-    return np.array(found)
+        postures.append(values)
+    return np.array(postures)
 
 
 SHARE_OF_LEG = 0.8
 """Distance of a standing robot's feet below its hips, over the stretched leg."""
 
-_STRAIGHTER = (0.85, 0.9, 0.95, 1.0)
+_STRAIGHTER_SHARES = (0.85, 0.9, 0.95, 1.0)
 """Shares tried in turn if joint limits forbid the desired one."""
 
 
@@ -241,28 +241,28 @@ def stand(tree: Tree, trunk: str, legs: Sequence[Leg], share: float = SHARE_OF_L
     geometries = leg_geometries(tree, trunk, legs)
     stances = tuple(problem.solve() for problem in _problems(geometries, share))
     warnings = [
-        f"leg '{each.leg.name}' cannot stand level below its hip within its joint limits: its foot "
-        f"is {1e3 * stance.miss:.0f} mm off and tilted by {np.degrees(stance.tilt):.1f} deg"
-        for each, stance in zip(geometries, stances, strict=True)
+        f"leg '{geometry.leg.name}' cannot stand level below its hip within its joint limits: its "
+        f"foot is {1e3 * stance.miss:.0f} mm off and tilted by {np.degrees(stance.tilt):.1f} deg"
+        for geometry, stance in zip(geometries, stances, strict=True)
         if not stance.good
     ]
-    for straighter in (each for each in _STRAIGHTER if warnings and each > share):
-        found: list[Stance] = []
+    for straighter in (longer for longer in _STRAIGHTER_SHARES if warnings and longer > share):
+        solved: list[Stance] = []
         for problem in _problems(geometries, straighter):
-            found.append(problem.solve())
+            solved.append(problem.solve())
             # One leg that fails is enough.
-            if not found[-1].good:
+            if not solved[-1].good:
                 break
         else:
             warnings = [
                 f"joint limits keep the legs from bending to {share:.0%} of their length: "
                 f"the robot stands at {straighter:.0%}"
             ]
-            stances, share = tuple(found), straighter
+            stances, share = tuple(solved), straighter
             break
     values = dict(neutral_posture(tree))
-    for each, stance in zip(geometries, stances, strict=True):
-        values.update(zip(each.chain.names, map(float, stance.values), strict=True))
+    for geometry, stance in zip(geometries, stances, strict=True):
+        values.update(zip(geometry.chain.names, map(float, stance.values), strict=True))
     return Stand(tree.complete(values), share, tuple(warnings))
 
 
@@ -270,16 +270,16 @@ def _problems(geometries: Sequence[LegGeometry], share: float) -> list[StancePro
     """Each leg's problem, with the ground at `share` of the leg that reaches least."""
     up = geometries[0].up
     ground = max(
-        float(up @ each.plane.hip) - share * each.plane.length - each.leg.foot_radius
-        for each in geometries
+        float(up @ geometry.plane.hip) - share * geometry.plane.length - geometry.leg.foot_radius
+        for geometry in geometries
     )
-    middle = np.mean([each.plane.hip for each in geometries], axis=0)
+    middle = np.mean([geometry.plane.hip for geometry in geometries], axis=0)
     problems = []
-    for each in geometries:
-        leg, plane = each.leg, each.plane
+    for geometry in geometries:
+        leg, plane = geometry.leg, geometry.plane
         # Straight below the hip; the knees of a biped point forward, others inwards.
         target = plane.hip + up * (ground + leg.foot_radius - float(up @ plane.hip))
         inwards = np.sign(plane.forward @ (middle - plane.hip)) or 1.0
         side = plane.forward if len(geometries) == 2 else plane.forward * inwards
-        problems.append(StanceProblem(each.chain, plane, leg.foot, target, up, side))
+        problems.append(StanceProblem(geometry.chain, plane, leg.foot, target, up, side))
     return problems

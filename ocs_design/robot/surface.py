@@ -138,14 +138,14 @@ def surface_of(triangles: FloatArray) -> HeightMap:
     batches = np.cumsum(pairs[order]) // _CHUNK
     for batch in np.unique(batches):
         rows = order[batches == batch]
-        each = pairs[rows]
-        owner = np.repeat(rows, each)
-        within = np.arange(len(owner)) - np.repeat(np.cumsum(each) - each, each)
+        counts = pairs[rows]
+        owner = np.repeat(rows, counts)
+        within = np.arange(len(owner)) - np.repeat(np.cumsum(counts) - counts, counts)
         i = first[owner, 0] + within // count[owner, 1]
         j = first[owner, 1] + within % count[owner, 1]
         x, y = origin[:, None] + step * np.stack([i, j])
-        found = _heights_on(triangles[owner].transpose(1, 2, 0), x, y)
-        np.maximum.at(heights.reshape(-1), i * shape[1] + j, found)
+        z = _heights_on(triangles[owner].transpose(1, 2, 0), x, y)
+        np.maximum.at(heights.reshape(-1), i * shape[1] + j, z)
     for row in np.flatnonzero(large):
         i, j = (np.arange(low, high + 1) for low, high in zip(first[row], last[row], strict=True))
         window = heights[i[0] : i[-1] + 1, j[0] : j[-1] + 1]
@@ -186,9 +186,11 @@ def trunk_triangles(robot: Robot) -> FloatArray | None:
         paths = {shape.mesh for shape in shapes if shape.mesh is not None}
         if sum(path.stat().st_size for path in paths) > MOST_BYTES:
             continue
-        found = [triangles for shape in shapes if (triangles := triangles_of(shape)) is not None]
-        if found:
-            points = np.concatenate(found)
+        triangle_lists = [
+            triangles for shape in shapes if (triangles := triangles_of(shape)) is not None
+        ]
+        if triangle_lists:
+            points = np.concatenate(triangle_lists)
             return frozen((points - base.position) @ base.rotation)
     return None
 
@@ -206,15 +208,15 @@ def triangles_of(shape: Shape) -> FloatArray | None:
                 if is_plain
                 else load_with_trimesh(shape.mesh).triangles
             )
-            own = np.array(read, dtype=np.float64)
+            local = np.array(read, dtype=np.float64)
         except Exception:  # A mesh reader fails in as many ways as there are broken meshes.
             return None
-        if not (len(own) and np.isfinite(own).all()):
+        if not (len(local) and np.isfinite(local).all()):
             return None
-        own = own * np.asarray(shape.size)
+        local = local * np.asarray(shape.size)
     else:
-        own = _primitive_triangles(shape.kind, shape.size)
-    return np.asarray(own @ shape.rotation.T + shape.position)
+        local = _primitive_triangles(shape.kind, shape.size)
+    return np.asarray(local @ shape.rotation.T + shape.position)
 
 
 def _primitive_triangles(kind: ShapeKind, size: tuple[float, ...]) -> FloatArray:
@@ -223,7 +225,11 @@ def _primitive_triangles(kind: ShapeKind, size: tuple[float, ...]) -> FloatArray
         corners = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
         # Two triangles for each side and each of its diagonals.
         sides = [corners[corners[:, axis] == end] for axis in range(3) for end in (-1.0, 1.0)]
-        threes = [side[list(each)] for side in sides for each in combinations(range(4), 3)]
+        threes = [
+            side[list(corner_indices)]
+            for side in sides
+            for corner_indices in combinations(range(4), 3)
+        ]
         return np.asarray(np.array(threes) * np.array(size))
     angles = np.linspace(0.0, 2.0 * np.pi, _ROUND, endpoint=False)
     radius, half = size[0], 0.0 if kind is ShapeKind.SPHERE else size[1]

@@ -160,14 +160,14 @@ class Tree:
     def placements(self, posture: Mapping[str, float]) -> tuple[Placement, ...]:
         """Frame of each body in the root's frame; joints missing in `posture` are at zero."""
         values = self.complete(posture)
-        found: list[Placement] = []
+        placed: list[Placement] = []
         for body in self.bodies:
             if body.joint is None:
-                found.append(Placement.identity())
+                placed.append(Placement.identity())
                 continue
             motion = joint_motion(body.joint, values[body.joint.name])
-            found.append(found[body.parent] @ body.placement @ motion)
-        return tuple(found)
+            placed.append(placed[body.parent] @ body.placement @ motion)
+        return tuple(placed)
 
     def placements_from(self, link: str, posture: Mapping[str, float]) -> tuple[Placement, ...]:
         """Frame of each body in the frame of `link`; joints missing in `posture` are at zero."""
@@ -191,9 +191,9 @@ class Tree:
         The composite rigid body of Featherstone (2008), section 6.2; Pinocchio calls its inertia
         `data.Ig` after `ccrba`.
         """
-        return combine(self.weighed_at(self.placements_from(link, posture)))
+        return combine(self.mass_properties_at(self.placements_from(link, posture)))
 
-    def weighed_at(self, placements: Sequence[Placement]) -> list[MassProperties]:
+    def mass_properties_at(self, placements: Sequence[Placement]) -> list[MassProperties]:
         """Mass properties of each body in the frame of the placements."""
         return [
             body.mass_properties.moved(place.rotation, place.position)

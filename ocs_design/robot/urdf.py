@@ -34,12 +34,12 @@ Color: TypeAlias = tuple[float, float, float, float]
 
 def read_palette(root: ET.Element) -> Mapping[str, Color]:
     """Colours of the file's named materials, by their first definition."""
-    found: dict[str, Color] = {}
+    palette: dict[str, Color] = {}
     for material in root.iter("material"):
         color = _color(material)
         if color is not None:
-            found.setdefault(material.get("name", ""), color)
-    return found
+            palette.setdefault(material.get("name", ""), color)
+    return palette
 
 
 def color_of(visual: ET.Element, palette: Mapping[str, Color]) -> Color | None:
@@ -139,7 +139,7 @@ def read_link(
 ) -> Link:
     """Name, mass properties and shapes of a `<link>`."""
     name = text(element, "name", "a link")
-    inertial, where, weighed = element.find("inertial"), f"link {name!r}", None
+    inertial, where, properties = element.find("inertial"), f"link {name!r}", None
     if inertial is not None:
         origin = read_origin(inertial, where)
         mass = number(required(inertial, "mass", where), "value", where)
@@ -147,18 +147,20 @@ def read_link(
             raise RobotError(
                 f"{where} has the negative mass {mass:g} kg", hint="correct its <mass value>"
             )
-        stated = required(inertial, "inertia", where)
-        ixx, iyy, izz = (number(stated, name, where) for name in ("ixx", "iyy", "izz"))
+        moments = required(inertial, "inertia", where)
+        ixx, iyy, izz = (number(moments, name, where) for name in ("ixx", "iyy", "izz"))
         if min(ixx, iyy, izz) < -NEGLIGIBLE_MOMENT:
             raise RobotError(
                 f"{where} has a negative moment of inertia: ixx {ixx:g}, iyy {iyy:g}, izz {izz:g}",
                 hint="correct its <inertia>; all three must be positive",
             )
-        ixy, ixz, iyz = (number(stated, name, where, default=0.0) for name in ("ixy", "ixz", "iyz"))
+        ixy, ixz, iyz = (
+            number(moments, name, where, default=0.0) for name in ("ixy", "ixz", "iyz")
+        )
         inertia = np.array([[ixx, ixy, ixz], [ixy, iyy, iyz], [ixz, iyz, izz]])
         about_com = MassProperties(mass, np.zeros(3), inertia)
-        weighed = about_com.moved(origin.rotation, origin.position)
-    return Link(name, weighed, tuple(_read_shapes(element, name, find_mesh, palette, warnings)))
+        properties = about_com.moved(origin.rotation, origin.position)
+    return Link(name, properties, tuple(_read_shapes(element, name, find_mesh, palette, warnings)))
 
 
 def read_origin(parent: ET.Element, where: str) -> Placement:
@@ -192,12 +194,12 @@ def _read_shapes(
     warnings: Warnings,
 ) -> Iterator[Shape]:
     where = f"link {name!r}"
-    for element in (each for each in link if each.tag in {"visual", "collision"}):
+    for element in (child for child in link if child.tag in {"visual", "collision"}):
         geometry = element.find("geometry")
-        found = None if geometry is None else _read_geometry(geometry, where, find_mesh)
-        if found is None:
+        read = None if geometry is None else _read_geometry(geometry, where, find_mesh)
+        if read is None:
             continue
-        kind, size, mesh = found
+        kind, size, mesh = read
         if kind is ShapeKind.MESH:
             # A negative scale mirrors the mesh.
             solid = all(size)
@@ -278,12 +280,12 @@ def _read_joint(element: ET.Element, name: str, kind: str, warnings: Warnings) -
     limit = element.find("limit")
     if limit is not None:
         names = ("lower", "upper", "effort", "velocity")
-        stated = [number(limit, each, where, default=0.0) for each in names]
-        if np.isinf(stated).any():
+        limits = [number(limit, attribute, where, default=0.0) for attribute in names]
+        if np.isinf(limits).any():
             warnings.add("joints with an infinite <limit>, which ROS refuses", name)
-        effort, velocity = stated[2:]
+        effort, velocity = limits[2:]
         if kind != "continuous":
-            lower, upper = stated[:2]
+            lower, upper = limits[:2]
     elif kind != "continuous":
         warnings.add("joints without a <limit>, which ROS refuses, read as unlimited", name)
     if lower >= upper:
@@ -315,7 +317,7 @@ def _read_joint(element: ET.Element, name: str, kind: str, warnings: Warnings) -
     )
 
 
-_MOST_TURNED = 4.0 * np.pi
+_LARGEST_ANGLE = 4.0 * np.pi
 """Largest roll, pitch or yaw believed to be in radians: two turns."""
 
 
@@ -365,8 +367,8 @@ def read_urdf(content: bytes, *, find_mesh: FindMesh) -> Tree:
     base = find_base(links, children)
     for part in root:
         name = part.get("name", "")
-        angles = [numbers(each, "rpy", name, (0.0, 0.0, 0.0)) for each in part.iter("origin")]
-        if angles and np.abs(angles).max() > _MOST_TURNED:
+        angles = [numbers(origin, "rpy", name, (0.0, 0.0, 0.0)) for origin in part.iter("origin")]
+        if angles and np.abs(angles).max() > _LARGEST_ANGLE:
             warnings.add("frames turned by more than two turns: angles in degrees?", name)
     return make_tree(root.get("name") or base, base, links, children, warnings)
 
@@ -390,6 +392,6 @@ def is_xacro(root: ET.Element) -> bool:
     return any(
         "${" in value or "$(" in value
         for part in parts
-        for each in part.iter()
-        for value in each.attrib.values()
+        for element in part.iter()
+        for value in element.attrib.values()
     )

@@ -61,14 +61,14 @@ def expand_xacro(content: bytes, path: Path, package_paths: Mapping[str, Path]) 
         "seconds": SECONDS,
     }
     try:
-        done = subprocess.run(
+        process = subprocess.run(
             [sys.executable, "-I", "-c", _START],
             input=json.dumps(job).encode(),
             capture_output=True,
             timeout=2.0 * SECONDS,
             check=False,
         )
-        answer: Mapping[str, str] = json.loads(done.stdout)
+        answer: Mapping[str, str] = json.loads(process.stdout)
     except (subprocess.TimeoutExpired, ValueError):
         # Killed at one of its limits, before it could answer.
         endless = f"it takes more than {SECONDS:.0f} s or 1 GiB: is there an endless expression?"
@@ -107,8 +107,16 @@ _REFUSED_FUNCTIONS = ("vars", "type")
 _SECRET = ("TOKEN", "SECRET", "PASSW", "CREDENTIAL", "KEY", "AUTH")
 
 # Importing Python's own modules needs the first of these, includes with wildcards the last.
-_HARMLESS = {"import", "marshal.loads", "compile", "exec", "os.listdir", "os.scandir", "glob.glob"}
-_HARMLESS |= {"builtins.id"}
+_HARMLESS_EVENTS = {
+    "import",
+    "marshal.loads",
+    "compile",
+    "exec",
+    "os.listdir",
+    "os.scandir",
+    "glob.glob",
+}
+_HARMLESS_EVENTS |= {"builtins.id"}
 
 
 def expand_job(*, content: str, file: str, packages: Mapping[str, str], seconds: float) -> None:
@@ -125,7 +133,7 @@ def expand_job(*, content: str, file: str, packages: Mapping[str, str], seconds:
 
         finder = MeshFinder(path.parent, {name: Path(folder) for name, folder in packages.items()})
         roots = [*roots_of(path), *finder.package_paths.values()]
-        _tame(xacro, finder, roots)
+        _restrict(xacro, finder, roots)
         _guard(roots)
         sys.stdout = io.StringIO()
         xacro.init_stacks(str(path))
@@ -156,7 +164,7 @@ def _limit(seconds: float) -> None:
         resource.setrlimit(limit, (value, hard))
 
 
-def _tame(xacro: ModuleType, finder: MeshFinder, roots: list[Path]) -> None:
+def _restrict(xacro: ModuleType, finder: MeshFinder, roots: list[Path]) -> None:
     """Replace xacro's evaluation and search for packages by checked ones."""
     from xacro import substitution_args  # noqa: PLC0415 - optional
 
@@ -170,7 +178,7 @@ def _tame(xacro: ModuleType, finder: MeshFinder, roots: list[Path]) -> None:
     def evaluate_argument(expression: str, _: object, names: Any) -> Any:  # noqa: ANN401 - xacro's
         """Value of an expression in `$(eval ...)`, with a few harmless functions."""
         check_expression(expression)
-        known = {each.__name__: each for each in _FUNCTIONS}
+        known = {function.__name__: function for function in _FUNCTIONS}
         return eval(expression, {"__builtins__": known}, names)
 
     def find(name: str) -> str:
@@ -243,7 +251,7 @@ def _guard(roots: list[Path]) -> None:
                     "outside the robot's folder and packages; add one with --package-path NAME=DIR",
                     str(target),
                 )
-        if event not in _HARMLESS:
+        if event not in _HARMLESS_EVENTS:
             raise PermissionError(f"xacro files may not do {event!r}")
 
     sys.addaudithook(refuse)

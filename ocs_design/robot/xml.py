@@ -172,13 +172,13 @@ def numbers(
     value = None if element is None else element.get(attribute)
     if element is None or value is None:
         return np.array(default, dtype=np.float64)
-    found = [_finite(word, element, attribute, where) for word in value.split()]
-    if len(found) != len(default):
+    values = [_finite(word, element, attribute, where) for word in value.split()]
+    if len(values) != len(default):
         raise RobotError(
-            f'{where}: {attribute}="{value}" of <{element.tag}> has {len(found)} numbers',
+            f'{where}: {attribute}="{value}" of <{element.tag}> has {len(values)} numbers',
             hint=f"give {len(default)} numbers separated by spaces",
         )
-    return np.array(found, dtype=np.float64)
+    return np.array(values, dtype=np.float64)
 
 
 def _finite(word: str, element: ET.Element, attribute: str, where: str) -> float:

@@ -27,7 +27,7 @@ from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.sweep import Task
 from ocs_design.requirement.vocabulary import RELIABILITY
 from ocs_design.robot.collision import forget_collision_model
-from ocs_design.robot.meshes import size
+from ocs_design.robot.meshes import longest_side
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.run import Run
 from ocs_design.simulation.simulate import POSE_RATE
@@ -100,7 +100,7 @@ class Placed:
     def task(self) -> Task:
         """The task that it was sized for."""
         robot = self.robot
-        extent = size(robot.tree, robot.posture, robot.trunk)
+        extent = longest_side(robot.tree, robot.posture, robot.trunk)
         return Task(self.specification, self.resolved, robot, extent)
 
     @property

@@ -7,7 +7,7 @@ import pytest
 
 from ocs_design.actuation.motor import BoltCircle, Face, Mounting, build_gaps
 from ocs_design.catalogue.gears import known_gears, load_gears
-from ocs_design.catalogue.motors import known_motors, load_motors, motor_doubts, motors
+from ocs_design.catalogue.motors import implausible_values, known_motors, load_motors, motors
 from ocs_design.common.errors import SpecificationError
 
 HEADER = "name,maker,source,mass_kg,kt_nm_per_a,kt_convention,kv_rpm_per_v,resistance_ohm"
@@ -302,7 +302,7 @@ DOUBTS = {
 
 @pytest.mark.parametrize(("changes", "message"), DOUBTS.values(), ids=DOUBTS)
 def test_figures_that_are_hardly_meant_are_doubted(load, changes, message):
-    (doubt,) = load(toml(**changes), read=motor_doubts)
+    (doubt,) = load(toml(**changes), read=implausible_values)
     assert re.search(f"mine.toml, M: {message}", doubt), doubt
     # They are read all the same.
     assert "M" in load(toml(**changes))
@@ -310,7 +310,7 @@ def test_figures_that_are_hardly_meant_are_doubted(load, changes, message):
 
 def test_nothing_of_the_catalogue_is_doubted():
     with as_file(files("ocs_design.catalogue") / "motors.csv") as path:
-        assert motor_doubts(path) == ()
+        assert implausible_values(path) == ()
 
 
 def test_a_remark_lets_a_contradiction_stand(load):

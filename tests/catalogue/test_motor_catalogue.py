@@ -21,7 +21,7 @@ from ocs_design.actuation.motor import (
     estimated_rotor_inertia,
 )
 from ocs_design.catalogue.motors import MotorSheet, motor, motors, motors_to_json
-from ocs_design.catalogue.rows import columns_of, positive, text, whole
+from ocs_design.catalogue.rows import columns_of, positive, positive_integer, text
 from ocs_design.parts.motor_mount import mount_of
 from ocs_design.report.text.catalogue import motor_mounting
 
@@ -110,7 +110,12 @@ def test_a_column_is_a_field_of_a_row_and_is_read_as_its_type_asks():
     assert [column.field for column in columns.values()] == [
         each.name for each in fields(MotorSheet)
     ]
-    asked = {"maker": text, "mass_kg": positive, "rotor_bolts": whole, "rotor_thread": text}
+    asked = {
+        "maker": text,
+        "mass_kg": positive,
+        "rotor_bolts": positive_integer,
+        "rotor_thread": text,
+    }
     assert {name: columns[name].read for name in asked} == asked
     with pytest.raises(ValueError, match="not one of six-step, foc, foc-rms"):
         columns["kt_convention"].read("sine")

@@ -14,7 +14,7 @@ import trimesh
 from pinocchio_robots import configuration
 from robots import ROBOTS
 
-from ocs_design.robot.clearance import drawn, full_ranges, landing_poses, reaches
+from ocs_design.robot.clearance import full_ranges, landing_poses, reaches, sampled_postures
 from ocs_design.robot.collision import CollisionModel
 from ocs_design.robot.meshes import trunk_extent
 from ocs_design.robot.probe import Ball, Drum
@@ -86,7 +86,7 @@ def by_coal(name, posture, shape, placement):
 def cases(name, count):
     """Random postures, each with a point around the trunk."""
     collision = collision_model(name)
-    postures = drawn(full_ranges(collision.robot, collision.robot.tree.joints), count)
+    postures = sampled_postures(full_ranges(collision.robot, collision.robot.tree.joints), count)
     centers = np.random.default_rng(1).uniform(-0.4, 0.4, (count, 3))
     return collision, list(zip(postures, centers, strict=True))
 
@@ -140,7 +140,7 @@ def test_skipped_parts_are_not_the_nearest(name, within):
     """Against each part in each posture alone, where neither boxes nor bounds skip anything."""
     collision, random = collision_model(name), np.random.default_rng(5)
     ranges = full_ranges(collision.robot, collision.robot.tree.joints)
-    poses = collision.poses(drawn(ranges, 24))
+    poses = collision.poses(sampled_postures(ranges, 24))
     for _ in range(4):
         center, axis = random.normal(scale=0.15, size=3), random.normal(size=3)
         for probe in (Ball(center, 0.03), Drum(center, axis / np.linalg.norm(axis), 0.02, 0.1)):
@@ -165,7 +165,7 @@ def test_skipped_parts_are_not_the_nearest(name, within):
 def test_postures_may_start_from_another_one():
     collision = collision_model(SOLO12)
     ranges = full_ranges(collision.robot, collision.robot.tree.joints)
-    start, *others = drawn(ranges, 4)
+    start, *others = sampled_postures(ranges, 4)
     changed = [{name: posture[name] for name in list(posture)[:2]} for posture in others]
     part = collision.parts[-1]
     expected = collision.poses([{**start, **posture} for posture in changed])
@@ -197,7 +197,7 @@ def test_a_fine_visual_mesh_collides_as_its_hull(tmp_path):
 
 @pytest.mark.slow
 def test_landing_legs_keep_their_feet_below_the_trunk():
-    """No foot's centre rises above the trunk's bottom; legs whose foot is lower stay as drawn."""
+    """No foot's centre rises above the trunk's bottom; legs whose foot is lower stay as sampled_postures."""
     collision = collision_model("human_description/robots/human")
     robot = collision.robot
     trunk_bottom = -trunk_extent(robot.tree, robot.trunk, -np.eye(3)[2])

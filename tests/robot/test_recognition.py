@@ -393,7 +393,7 @@ def test_specified_legs_are_those_that_are_recognised():
     # Any link of the foot's body names it, and a pair of legs is a biped.
     biped = recognise(tree, legs=["fl_shank", "fr_foot"])
     assert feet(biped) == ["fl_foot", "fr_foot"]
-    assert biped.stated == {"legs"}
+    assert biped.specified == {"legs"}
 
 
 def test_no_legs_can_be_specified(tmp_path):

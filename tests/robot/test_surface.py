@@ -12,7 +12,7 @@ from robots import ROBOTS, SOLO12
 
 from ocs_design.common.frames import rotation_from_rpy
 from ocs_design.robot.manual import robot_by_hand
-from ocs_design.robot.meshes import extent, size, trunk_top
+from ocs_design.robot.meshes import extent, longest_side, trunk_top
 from ocs_design.robot.reader import read_robot
 from ocs_design.robot.surface import STEP, surface_of, triangles_of, trunk_surface
 from ocs_design.robot.tree import Shape, ShapeKind
@@ -145,5 +145,5 @@ def test_trunk_top_without_shapes_is_the_centre_of_mass():
 def test_a_box_by_hand_is_as_large_as_its_longest_side():
     """Sides 0.4, 0.2, 0.1 m of 12 kg."""
     robot = robot_by_hand(12.0, (0.05, 0.17, 0.20))
-    assert size(robot.tree, {}, "base") == pytest.approx(0.4)
+    assert longest_side(robot.tree, {}, "base") == pytest.approx(0.4)
     assert trunk_top(robot.tree, "base") == pytest.approx(0.05)

@@ -11,7 +11,7 @@ from ocs_design.parts.foot import Foot
 from ocs_design.parts.housing import Housing
 from ocs_design.parts.motor_mount import Behind
 from ocs_design.requirement.froude import default_envelope
-from ocs_design.robot.clearance import drawn, landing_ranges
+from ocs_design.robot.clearance import landing_ranges, sampled_postures
 from ocs_design.robot.collision import collision_model
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.probe import Ball
@@ -86,7 +86,7 @@ def test_every_legged_robot_has_a_free_place(name):
     collision, size = collision_model(robot), Sizes.of(envelope).largest
     others = collision.limbs
     x, y, z = found.place.centers(size)[0]
-    poses = collision.poses([{}, *drawn(landing_ranges(robot), 1500)[512:]])
+    poses = collision.poses([{}, *sampled_postures(landing_ranges(robot), 1500)[512:]])
     for side in (y, -y):
         # Postures outside of the search do not reach the module itself either.
         ball = Ball(np.array([x, side, z]), size.reach)

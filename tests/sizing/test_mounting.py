@@ -11,7 +11,7 @@ from wheels import layout_device, paper_device
 from ocs_design.common.errors import SpecificationError
 from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.requirement.froude import default_envelope
-from ocs_design.robot.clearance import drawn, landing_ranges
+from ocs_design.robot.clearance import landing_ranges, sampled_postures
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.sizing.mounting import mounting_of, mounting_open_points, placement_warnings
 
@@ -102,7 +102,7 @@ def test_mujoco_sees_no_contact_of_device_and_robot(name):
     robot, device, mounting = mounted(name)
     assert mounting.nearest.distance > 0.0
     assert mounting.landing.distance > 0.0
-    postures = [{}, *drawn(landing_ranges(robot), 700)[-150:]]
+    postures = [{}, *sampled_postures(landing_ranges(robot), 700)[-150:]]
     for mounted_device in (device, device.at_incidence(0.0)):
         assert contacts(robot, mounted_device, postures) == []
 

@@ -14,7 +14,7 @@ from ocs_design.actuation.drive import speed_limit
 from ocs_design.actuation.motor import Gear, Motor, Mounting, build_gaps
 from ocs_design.catalogue.gears import GearSheet, gears_to_json, known_gears
 from ocs_design.catalogue.materials import Material, materials, materials_to_json
-from ocs_design.catalogue.motors import known_motors, motor_doubts, motors_to_json
+from ocs_design.catalogue.motors import implausible_values, known_motors, motors_to_json
 from ocs_design.common.errors import UsageError
 from ocs_design.common.units import format_quantity, to_unit
 from ocs_design.report.table import CellTable, columns
@@ -83,7 +83,7 @@ def listing(what: str, files: Mapping[str, str | None]) -> Listing:
     path = None if file is None else Path(file)
     if what == "motors":
         motors = tuple(known_motors(path).values())
-        doubts = () if path is None else motor_doubts(path)
+        doubts = () if path is None else implausible_values(path)
         document = motors_to_json(motors, doubts)
         return Listing(motors, document, partial(print_motors, motors=motors), doubts)
     if what == "gears":
