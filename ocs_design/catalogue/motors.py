@@ -458,7 +458,8 @@ def _implausible_figures(sheet: MotorSheet) -> Iterator[str]:
             yield (
                 f"resistance_ohm is {resistance_given:g} ohm, which takes "
                 f"{current * resistance:.4g} V for peak_current_a, {sheet.peak_current_a:g} A, "
-                f"and rated_voltage_v is {voltage:g} V: {_likely_unit(resistance_given, 'ohm', share, VOLTAGE_SHARES)}"
+                f"and rated_voltage_v is {voltage:g} V: "
+                f"{_likely_unit(resistance_given, 'ohm', share, VOLTAGE_SHARES)}"
             )
 
 
