@@ -197,7 +197,7 @@ def test_a_fine_visual_mesh_collides_as_its_hull(tmp_path):
 
 @pytest.mark.slow
 def test_landing_legs_keep_their_feet_below_the_trunk():
-    """No foot's centre rises above the trunk's bottom; legs whose foot is lower stay as sampled_postures."""
+    """No foot's centre rises above the trunk's bottom; legs whose foot is lower stay as sampled."""
     collision = collision_model("human_description/robots/human")
     robot = collision.robot
     trunk_bottom = -trunk_extent(robot.tree, robot.trunk, -np.eye(3)[2])
