@@ -84,8 +84,8 @@ class OcsFlight(gymnasium.Env[Observation, Observation]):
         """
         flights = read_flights(design, Specification(), robot_file=robot_file)
         # The record says what the legs can bear, unless the design was never flown.
-        flown = flights.design.validation or flights.fly(Steps())
-        self._campaign = campaign_of(flights, flown)
+        steps_since_lift_off = flights.design.validation or flights.fly(Steps())
+        self._campaign = campaign_of(flights, steps_since_lift_off)
         names = [flight.maneuver.name for flight in self._campaign.flights]
         if maneuver is not None and maneuver not in names:
             raise UsageError(f"the design has no maneuver {maneuver!r}", hint=f"it has {names}")
@@ -150,7 +150,7 @@ class OcsFlight(gymnasium.Env[Observation, Observation]):
             UsageError: the action has another shape, or a NaN.
         """
         pilot = self._flying()
-        low, high = pilot.seen.lowest, pilot.seen.highest
+        low, high = pilot.readings.lowest, pilot.readings.highest
         share = np.clip(np.asarray(action, dtype=np.float64), -1.0, 1.0)
         if share.shape != self.action_space.shape or not np.isfinite(share).all():
             raise UsageError(f"an action must fit {self.action_space}, not {action}")
@@ -165,7 +165,7 @@ class OcsFlight(gymnasium.Env[Observation, Observation]):
             reward = float(sum(each is True for each in found.values()))
             return self._last, reward, True, False, {**found, "reason": verdict.reason}
         observed, reward = self._observed(), 0.0
-        self._landed |= pilot.touches and not self._maneuver.on_feet
+        self._landed |= pilot.in_contact and not self._maneuver.on_feet
         if not self._landed:
             far = float(np.linalg.norm(self._left))
             reward, self._far = self._far - far, far
@@ -204,18 +204,19 @@ class OcsFlight(gymnasium.Env[Observation, Observation]):
     def _observed(self) -> Observation:
         """Observation now; keeps it, and the angles left to turn [half turns]."""
         pilot, world = self._flying(), self._world
-        seen, time = pilot.seen, 1.0 - pilot.flown * self._period / world.flight_time
-        x, y, z = seen.vertical
+        readings = pilot.readings
+        time = 1.0 - pilot.steps_since_lift_off * self._period / world.flight_time
+        x, y, z = readings.vertical
         pitch = np.arctan2(-x, z)
         self._pitch += remainder(pitch - self._pitch, tau)
         roll = np.arcsin(np.clip(y, -1.0, 1.0))
-        left = self._goal() - (roll, self._pitch, seen.heading)
+        left = self._goal() - (roll, self._pitch, readings.heading)
         left[2] = remainder(left[2], tau)
         self._left = np.nan_to_num(left / np.pi)
-        rate = seen.rate * world.flight_time / np.pi
-        spin = seen.wheel_speed / self._top_speed
-        rest = np.array([time, float(pilot.touches)])
-        whole = np.concatenate([seen.vertical, rate, spin, self._left, rest])
+        rate = readings.rate * world.flight_time / np.pi
+        spin = readings.wheel_speed / self._top_speed
+        rest = np.array([time, float(pilot.in_contact)])
+        whole = np.concatenate([readings.vertical, rate, spin, self._left, rest])
         last: Observation = np.clip(whole, -BOUND, BOUND).astype(np.float32)
         self._last = last
         return last
@@ -234,7 +235,7 @@ class OcsFlight(gymnasium.Env[Observation, Observation]):
 
     def _law_action(self) -> FloatArray:
         """Action that the wheel law would take, shape (n,)."""
-        seen = self._flying().seen
-        torque = seen.law_torque
-        most = np.where(torque < 0.0, -seen.lowest, seen.highest)
+        readings = self._flying().readings
+        torque = readings.law_torque
+        most = np.where(torque < 0.0, -readings.lowest, readings.highest)
         return np.divide(torque, most, out=np.zeros_like(torque), where=most > 0.0)

@@ -25,7 +25,7 @@ from ocs_design.simulation.metrics import objection
 from ocs_design.simulation.motor_limits import MotorLimits
 from ocs_design.simulation.run import Metrics, Run
 from ocs_design.simulation.scenario import Flights, fly
-from ocs_design.simulation.simulate import Progress, scaled
+from ocs_design.simulation.simulate import Progress, partial_progress
 from ocs_design.simulation.verdict import MOMENTUM_GATE, Verdict, judge
 from ocs_design.simulation.world import World
 from ocs_design.simulation.world_builder import Options
@@ -113,7 +113,7 @@ def make_campaign(
         can_stand: of each maneuver, as found in its flights as designed.
         seed: of all samples.
     """
-    worlds, device = map(flights.driven, flights.maneuvers), flights.device
+    worlds, device = map(flights.device_world, flights.maneuvers), flights.device
     designed = tuple(
         DesignedFlight(maneuver, world, stands, objection(world))
         for maneuver, world, stands in zip(flights.maneuvers, worlds, can_stand, strict=True)
@@ -155,7 +155,7 @@ def fly_samples(
     for start in range(0, len(indices), at_once):
         some = indices[start : start + at_once]
         done, after = start / len(indices), (start + len(some)) / len(indices)
-        tell = scaled(progress, done, after)
+        tell = partial_progress(progress, done, after)
         parts.append(_flown_at_once(campaign, some, threads, tell))
     return Outcomes.joined(parts)
 

@@ -15,7 +15,7 @@ from ocs_design.device.records.flights import Conclusion, ReliabilityRecord
 from ocs_design.monte_carlo.campaign import Campaign
 from ocs_design.monte_carlo.outcomes import Outcomes, share
 from ocs_design.robot.stance import LANDING_TOLERANCE
-from ocs_design.simulation.verdict import ends_anyhow, tilts_off
+from ocs_design.simulation.verdict import ends_at_any_attitude, tilt_errors
 
 ERROR = 0.05
 """Largest probability of either wrong verdict."""
@@ -140,8 +140,8 @@ def lesson(test: SequentialTest, campaign: Campaign, outcomes: Outcomes) -> Less
     tilts = np.stack([outcomes.metric(f"touchdown_{name}") for name in names])
     for number, flight in enumerate(campaign.flights):
         roll, pitch = tilts[:, :, number]
-        tilts[:, :, number] = tilts_off(roll, pitch, flight.maneuver)
-        if ends_anyhow(flight.maneuver):
+        tilts[:, :, number] = tilt_errors(roll, pitch, flight.maneuver)
+        if ends_at_any_attitude(flight.maneuver):
             tilts[:, :, number] = 0.0
     off = (np.abs(tilts) > LANDING_TOLERANCE).sum(axis=1)
     axis, number = divmod(int(np.argmax(off)), len(campaign.flights))

@@ -15,7 +15,7 @@ import numpy as np
 from ocs_design.common.errors import MissingToolError, OcsError, extra_command
 from ocs_design.monte_carlo.campaign import Campaign, fly_samples
 from ocs_design.monte_carlo.outcomes import Block, Outcomes, Storage, shares
-from ocs_design.simulation.simulate import Progress, scaled
+from ocs_design.simulation.simulate import Progress, partial_progress
 
 Arrivals = Generator[tuple[Block, Outcomes], None, None]
 
@@ -57,7 +57,7 @@ def fly_here(
     """
     for start in range(0, len(blocks), at_once):
         some = blocks[start : start + at_once]
-        tell = scaled(progress, start / len(blocks), (start + len(some)) / len(blocks))
+        tell = partial_progress(progress, start / len(blocks), (start + len(some)) / len(blocks))
         indices = [index for block in some for index in block]
         flown = fly_samples(campaign, indices, threads=threads, progress=tell)
         for block in some:
@@ -88,7 +88,7 @@ def run_campaign(
     """
     flown = {} if storage is None else dict(storage.found(blocks))
     missing = [block for block in blocks if block not in flown]
-    tell = scaled(progress, len(flown) / len(blocks), 1.0)
+    tell = partial_progress(progress, len(flown) / len(blocks), 1.0)
     counted: list[Outcomes] = []
     with closing(fly(campaign, missing, tell)) as arrivals:
         for wanted in blocks:

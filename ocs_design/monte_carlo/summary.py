@@ -23,7 +23,12 @@ from ocs_design.monte_carlo.outcomes import FAULTS, Outcomes, share, shares
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.robot.stance import LANDING_TOLERANCE
 from ocs_design.simulation.scenario import fly
-from ocs_design.simulation.verdict import Fault, ends_anyhow, landing_attitude, off_asked
+from ocs_design.simulation.verdict import (
+    Fault,
+    attitude_errors,
+    ends_at_any_attitude,
+    landing_attitude,
+)
 from ocs_design.simulation.world import World
 from ocs_design.simulation.world_builder import Options
 
@@ -40,9 +45,9 @@ def attitude_error(outcomes: Outcomes, maneuver: Maneuver, number: int) -> Float
     NaN for a maneuver that may end at any attitude.
     """
     roll, pitch = (outcomes.metric(f"touchdown_{axis}")[:, number] for axis in ("roll", "pitch"))
-    if ends_anyhow(maneuver):
+    if ends_at_any_attitude(maneuver):
         return np.full(len(roll), np.nan)
-    error = off_asked(roll, pitch, maneuver)
+    error = attitude_errors(roll, pitch, maneuver)
     if maneuver.counts_turns:
         turned = outcomes.metric("turned_angle")[:, number]
         error = np.maximum(error, np.abs(turned - maneuver.boundary(0.0).angle))

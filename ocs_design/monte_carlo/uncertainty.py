@@ -26,7 +26,7 @@ from ocs_design.robot.mujoco_bodies import quaternion
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.imperfections import AirDrag, Imperfections
 from ocs_design.simulation.motor_limits import MotorLimits
-from ocs_design.simulation.schedule import SURE
+from ocs_design.simulation.schedule import FLIGHT_CONFIRMATION
 from ocs_design.simulation.target import StoppedDrive
 from ocs_design.simulation.world import World
 
@@ -203,7 +203,7 @@ def built(
     mujoco.mj_setConst(model, mujoco.MjData(model) if scratch is None else scratch)
 
     # Sampled friction is subtracted only once, from the motor's torque.
-    law = replace(world.law, limits=stacked_columns([limits.used]))
+    law = replace(world.law, limits=stacked_columns([limits.usable]))
     constant = 1.0 + sample.of("torque_constant_error")
     voltage = 1.0 + sample.only("bus_voltage_error")
     resistance = 1.0 + sample.of("resistance_error")
@@ -233,7 +233,10 @@ def built(
     pushes = world.pushes
     if world.takes_off:
         impulse = world.body.actuated_inertia[:, :2] @ sample.of("takeoff_rate")
-        pushes = (*pushes, Push(impulse / PUSH_OFF_END, max(SURE, period), PUSH_OFF_END))
+        pushes = (
+            *pushes,
+            Push(impulse / PUSH_OFF_END, max(FLIGHT_CONFIRMATION, period), PUSH_OFF_END),
+        )
     return replace(
         world,
         model=model,

@@ -21,7 +21,7 @@ from ocs_design.report.table import Cell, CellTable, Tone, Toned, columns
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.robot.stance import LANDING_TOLERANCE
 from ocs_design.simulation.run import UPRIGHT_TILT
-from ocs_design.simulation.verdict import ends_anyhow, landing_attitude, off_asked
+from ocs_design.simulation.verdict import attitude_errors, ends_at_any_attitude, landing_attitude
 
 SWING_INCREASE_NOTED = np.radians(1.0)
 """Increase of the swing on the ground by the device above which it is reported [rad]."""
@@ -118,10 +118,10 @@ def short_verdict(run: ValidationRecord, maneuver: Maneuver | None) -> Toned:
         # A push on a standing robot.
         angle, suffix = float(np.hypot(*_angles(metrics, "{}_swing"))), " swing"
     elif maneuver is not None and maneuver.heading_matters:
-        if ends_anyhow(maneuver):
+        if ends_at_any_attitude(maneuver):
             angle, suffix = metrics.get("touchdown_rate") or 0.0, " deg/s"
         elif any(landing_attitude(maneuver)[:2]):
-            angle = float(off_asked(np.array([roll]), np.array([pitch]), maneuver)[0])
+            angle = float(attitude_errors(np.array([roll]), np.array([pitch]), maneuver)[0])
             suffix = " off target"
         suffix += f", heading {degrees_number(metrics['heading_drift'] or 0.0)}"
     return Toned(f"{verdict.text:<5} {degrees_number(angle):>5}{suffix}", verdict.tone)

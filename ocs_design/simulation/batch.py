@@ -15,7 +15,7 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.simulation.desaturation import WheelBrake
 from ocs_design.simulation.engine import Engine, Physics
 from ocs_design.simulation.imperfections import ImperfectDrives, Sensing
-from ocs_design.simulation.scene import ANCHOR, whole_mass
+from ocs_design.simulation.scene import ANCHOR, total_mass_properties
 from ocs_design.simulation.schedule import (
     FlightClock,
     LegReferences,
@@ -117,7 +117,7 @@ def joined(parts: Sequence[Recording], places: Sequence[NDArray[np.intp]]) -> Re
         places: for each part, the indices of its worlds among all worlds.
     """
     longest = max(parts, key=lambda part: len(part.time))
-    whole = empty_recording(
+    combined = empty_recording(
         longest.time,
         np.empty(sum(map(len, places)), dtype=np.int64),
         wheels=longest.wheel_speed.shape[2],
@@ -125,26 +125,28 @@ def joined(parts: Sequence[Recording], places: Sequence[NDArray[np.intp]]) -> Re
         nq=longest.qpos.shape[2],
     )
     for part, place in zip(parts, places, strict=True):
-        for name in _ONCE:
-            getattr(whole, name)[place] = getattr(part, name)
-        for name in _SERIES:
+        for name in _PER_WORLD:
+            getattr(combined, name)[place] = getattr(part, name)
+        for name in _PER_INSTANT:
             series = getattr(part, name)
-            getattr(whole, name)[: len(series), place] = series
-    return whole
+            getattr(combined, name)[: len(series), place] = series
+    return combined
 
 
-_ONCE = ("lengths", "stable", "warning", "lift_off")
+_PER_WORLD = ("lengths", "stable", "warning", "lift_off")
 """Quantities with one value per world."""
 
-_SERIES = [
-    field.name for field in fields(Recording) if field.name not in {"time", "pose_stride", *_ONCE}
+_PER_INSTANT = [
+    field.name
+    for field in fields(Recording)
+    if field.name not in {"time", "pose_stride", *_PER_WORLD}
 ]
 
 
 _CONTROL = mujoco.mjtState.mjSTATE_CTRL.value
-_PUSHED = _CONTROL | mujoco.mjtState.mjSTATE_XFRC_APPLIED.value
+_CONTROL_AND_PUSH = _CONTROL | mujoco.mjtState.mjSTATE_XFRC_APPLIED.value
 
-_TELLING = 20
+_REPORT_INTERVAL = 20
 """Control steps between two progress reports."""
 
 
@@ -166,7 +168,7 @@ class Batch:
         self._hold, self._period = hold, hold * first.opt.timestep
         self._models = [world.model for world in worlds]
         self._lengths = np.array(
-            [max(1, int(np.ceil(each.duration / self._period - 1e-9))) for each in worlds]
+            [max(1, int(np.ceil(world.duration / self._period - 1e-9))) for world in worlds]
         )
         times = self._period * np.arange(self._lengths[0])
         self._record = empty_recording(
@@ -182,12 +184,14 @@ class Batch:
         self._clock = FlightClock(worlds, self._period)
         self._law = WheelLaw.joined([world.law for world in worlds])
         # Sensors and drives are perfect in all worlds of a batch or in none.
-        own = [world.imperfections for world in worlds if world.imperfections is not None]
-        self._sensing = Sensing(own, self._lengths.tolist(), self._period) if own else None
+        imperfections = [world.imperfections for world in worlds if world.imperfections is not None]
+        self._sensing = (
+            Sensing(imperfections, self._lengths.tolist(), self._period) if imperfections else None
+        )
         self._drives = None
-        if own:
+        if imperfections:
             self._drives = ImperfectDrives(
-                own,
+                imperfections,
                 response=self._law.wheel_response,
                 instants=int(self._lengths[0]),
                 hold=hold,
@@ -213,7 +217,9 @@ class Batch:
         self._push_address = first.nu + 6 * self._addresses.trunk + 3
         self._body_mass = np.stack([world.model.body_mass for world in worlds])
         # Weight times lever as built, in B; worlds on a pivot form a batch of their own.
-        self._pull = np.stack([_pull(world) for world in worlds]) if worlds[0].body.stands else None
+        self._weight_lever = (
+            np.stack([_weight_lever(world) for world in worlds]) if worlds[0].body.stands else None
+        )
 
     def run(self, threads: int, stop: Event, progress: Callable[[float], None]) -> Recording:
         """Run all worlds to their ends, once.
@@ -232,30 +238,32 @@ class Batch:
             for k in range(int(self._lengths[0])):
                 if stop.is_set():
                     break
-                if k % _TELLING == 0:
+                if k % _REPORT_INTERVAL == 0:
                     progress(float(np.minimum(self._lengths, k).sum() / self._lengths.sum()))
                 running = int(np.count_nonzero(self._lengths > k))
                 if running < len(law.stiffness):
                     law = law.take(slice(running))
-                asked, _ = self.observe_and_decide(k, law)
-                self.advance(pool, data, k, self.driven(k, asked))
+                commanded, _ = self.observe_and_decide(k, law)
+                self.advance(pool, data, k, self.applied_torque(k, commanded))
                 self.record_sensors(k, running)
         return self.recorded(data[0])
 
-    def recorded(self, last: mujoco.MjData) -> Recording:
-        """The recording, completed with what is known at the end; `last` is scratch memory."""
+    def recorded(self, scratch: mujoco.MjData) -> Recording:
+        """The recording, completed with what is known at the end; `scratch` is overwritten."""
         missing = np.abs(self._state[:, 0] - self._lengths * self._period)
         finite = np.isfinite(self._state).all(axis=1)
         self._record.stable[:] = finite & (missing < 0.5 * self._period)
         for index in np.flatnonzero(~self._record.stable).tolist():
             # One more step from the last state shows which warning MuJoCo raises.
             model = self._models[index]
-            mujoco.mj_resetData(model, last)
-            mujoco.mj_setState(model, last, self._state[index], mujoco.mjtState.mjSTATE_FULLPHYSICS)
-            last.ctrl[:] = self._control[index, -1]
-            mujoco.mj_step(model, last)
-            said = np.flatnonzero(last.warning.number)
-            self._record.warning[index] = int(said[0]) if said.size else -1
+            mujoco.mj_resetData(model, scratch)
+            mujoco.mj_setState(
+                model, scratch, self._state[index], mujoco.mjtState.mjSTATE_FULLPHYSICS
+            )
+            scratch.ctrl[:] = self._control[index, -1]
+            mujoco.mj_step(model, scratch)
+            raised = np.flatnonzero(scratch.warning.number)
+            self._record.warning[index] = int(raised[0]) if raised.size else -1
         self._record.lift_off[:] = self._clock.lift_off
         return self._record
 
@@ -282,27 +290,27 @@ class Batch:
         steps, contact = self._clock.steps(k, running), record.contact[k - 1, :running]
         target = self._references.at(steps).landed(contact)
         if self._brake is not None:
-            target = self._brake.added(target, speed, contact)
+            target = self._brake.with_braking(target, speed, contact)
         if self._sensing is not None:
             vertical, rate = self._sensing.measured(k, vertical, rate)
             attitude = self._sensing.attitude(k, attitude)
         if self._stopped is not None:
             target = replace(target, shared=self._stopped.shared(steps))
-        asked = law.torque(vertical, rate, speed, target, self._period, attitude=attitude)
+        commanded = law.torque(vertical, rate, speed, target, self._period, attitude=attitude)
         # The wheels wait for lift-off.
-        asked[steps < 0] = 0.0
+        commanded[steps < 0] = 0.0
         if self._stopped is not None:
-            asked = self._stopped.left(steps, asked)
-        return asked, (vertical, rate, attitude)
+            commanded = self._stopped.without_stopped(steps, commanded)
+        return commanded, (vertical, rate, attitude)
 
-    def driven(self, k: int, torque: FloatArray) -> FloatArray:
+    def applied_torque(self, k: int, torque: FloatArray) -> FloatArray:
         """Torques that the motors apply to the wheels from instant `k` on, given the commands.
 
         Shape (n, 1, wheels) if they are held for the control step, else (n, hold, wheels).
         """
         n, acting = len(torque), torque[:, None]
         if self._drives is not None:
-            torque, acting = self._drives.driven(k, torque, self._record.wheel_speed[k, :n])
+            torque, acting = self._drives.applied_torque(k, torque, self._record.wheel_speed[k, :n])
         self._record.wheel_torque[k, :n] = torque
         return acting
 
@@ -310,17 +318,17 @@ class Batch:
         """Advance the physics by control step `k`, with its external torque and impulse."""
         n, record = len(torque), self._record
         control, specification = self._control, _CONTROL
-        push, gained = self._pushes.at(self._clock.steps(k, n)), None
+        push, impulse = self._pushes.at(self._clock.steps(k, n)), None
         if push is not None:
             to_world = quaternions.matrix(record.attitude[k, :n])
             torque_on, acceleration = np.einsum("nij,npj->pni", to_world, push)
-            gained = torque_on * self._period
-            control, specification = self._pushed_control, _PUSHED
+            impulse = torque_on * self._period
+            control, specification = self._pushed_control, _CONTROL_AND_PUSH
             first = self._push_address
             control[:n, :, first : first + 3] = torque_on[:, None]
             wrenches = control[:n, :, self._models[0].nu :].reshape(n, self._hold, -1, 6)
             wrenches[..., :3] = (self._body_mass[:n, :, None] * acceleration[:, None])[:, None]
-        self._legs.write(k, control[:n], self._clock.bears(k, record.contact[k - 1, :n]))
+        self._legs.write(k, control[:n], self._clock.bears_weight(k, record.contact[k - 1, :n]))
         control[:n, :, self._motors] = torque
         pool.rollout(
             self._models[:n],
@@ -333,13 +341,15 @@ class Batch:
             state=self._states[:n],
             sensordata=self._sensors[:n],
         )
-        if self._pull is not None:
-            gained = self._by_gravity(self._pull[:n])
+        if self._weight_lever is not None:
+            impulse = self._gravity_impulse(self._weight_lever[:n])
         if k + 1 < len(record.time):
-            record.impulse[k + 1, :n] = record.impulse[k, :n] + (0.0 if gained is None else gained)
+            record.impulse[k + 1, :n] = record.impulse[k, :n] + (
+                0.0 if impulse is None else impulse
+            )
         self._state[:n] = self._states[:n, -1]
 
-    def _by_gravity(self, pull: FloatArray) -> FloatArray:
+    def _gravity_impulse(self, pull: FloatArray) -> FloatArray:
         """Impulse of gravity's torque about the pivots in a control step [N m s], (n, 3).
 
         The torque is `z x R (m g l)` and its slope `z x (w x R (m g l))`; over each physics step
@@ -359,25 +369,25 @@ class Batch:
 
     def record_sensors(self, k: int, running: int) -> None:
         """Record the sensors at the start of the control step, and any contact during it."""
-        where, record = self._addresses, self._record
-        now = self._sensors[:running, 0]
-        record.com[k, :running] = now[:, where.com : where.com + 3]
-        record.momentum[k, :running] = now[:, where.momentum : where.momentum + 3]
-        record.height[k, :running] = now[:, where.height]
-        touches = self._sensors[:running, :, where.contact] > 0
+        addresses, record = self._addresses, self._record
+        sensors = self._sensors[:running, 0]
+        record.com[k, :running] = sensors[:, addresses.com : addresses.com + 3]
+        record.momentum[k, :running] = sensors[:, addresses.momentum : addresses.momentum + 3]
+        record.height[k, :running] = sensors[:, addresses.height]
+        touches = self._sensors[:running, :, addresses.contact] > 0
         record.contact[k, :running] = touches.any(axis=1)
-        self._clock.look(k, touches)
+        self._clock.update(k, touches)
         if k > 0:
             # The last Runge-Kutta stage of the previous step already felt this contact.
             record.contact[k - 1, :running] |= touches[:, 0]
 
 
-def _pull(world: World) -> FloatArray:
+def _weight_lever(world: World) -> FloatArray:
     """Weight times lever about the pivot of the robot as built, in B [N m], shape (3,)."""
     model, data = world.model, mujoco.MjData(world.model)
     data.qpos[:] = world.qpos
     mujoco.mj_kinematics(model, data)
-    built = whole_mass(model, data)
+    built = total_mass_properties(model, data)
     lever = built.com - data.xpos[model.body(ANCHOR).id]
     to_world = quaternions.matrix(world.chain.attitude(world.qpos))
     return np.asarray(-built.mass * model.opt.gravity[2] * lever @ to_world)

@@ -56,20 +56,22 @@ class Desaturation(Table):
             speed: of the wheels [rad/s], shape (n, wheels).
             stood: time on the ground [s], shape (n, 1).
         """
-        wanted = np.minimum(np.maximum(-self.damping * speed, -self.torque_max), self.torque_max)
-        return np.where(stood >= self.settling, wanted, 0.0)
+        braking = np.minimum(np.maximum(-self.damping * speed, -self.torque_max), self.torque_max)
+        return np.where(stood >= self.settling, braking, 0.0)
 
 
 class WheelBrake:
     """Brakes the wheels of n worlds, and keeps the time that each has stood."""
 
-    def __init__(self, own: Sequence[Desaturation | None], period: float) -> None:
+    def __init__(self, desaturations: Sequence[Desaturation | None], period: float) -> None:
         """Brakes of worlds with control steps of `period` [s]."""
         idle = Desaturation(np.inf, 0.0, 0.0)
-        self._brakes = stacked_columns([idle if each is None else each for each in own])
-        self._stood, self._period = np.zeros(len(own)), period
+        self._brakes = stacked_columns(
+            [idle if desaturation is None else desaturation for desaturation in desaturations]
+        )
+        self._stood, self._period = np.zeros(len(desaturations)), period
 
-    def added(self, target: Target, speed: FloatArray, contact: NDArray[np.bool_]) -> Target:
+    def with_braking(self, target: Target, speed: FloatArray, contact: NDArray[np.bool_]) -> Target:
         """The target with the braking torque added.
 
         Args:

@@ -38,7 +38,7 @@ class _Traced(np.ndarray):
     def __array_ufunc__(
         self, ufunc: np.ufunc, method: str, *inputs: object, **keywords: object
     ) -> object:
-        plain = [np.asarray(each) if isinstance(each, _Traced) else each for each in inputs]
+        plain = [np.asarray(value) if isinstance(value, _Traced) else value for value in inputs]
         if method == "__call__" and ufunc in _OPERATIONS:
             return _traced(np.frompyfunc(_OPERATIONS[ufunc], ufunc.nin, 1)(*plain))
         return _traced(getattr(ufunc, method)(*plain, **keywords))
@@ -51,10 +51,10 @@ class _Traced(np.ndarray):
         keywords: Mapping[str, object],
     ) -> object:
         if function is np.where:
-            condition, one, other = (np.asarray(each) for each in args)
+            condition, one, other = (np.asarray(value) for value in args)
             return _traced(np.frompyfunc(ca.if_else, 3, 1)(condition, one, other))
         if function is np.linalg.norm:
-            (vector,) = (np.asarray(each).view(_Traced) for each in args)
+            (vector,) = (np.asarray(value).view(_Traced) for value in args)
             return np.sqrt((vector * vector).sum(**keywords))  # type: ignore[call-overload]
         return _traced(super().__array_function__(function, types, args, keywords))
 
@@ -116,7 +116,7 @@ class _Columns:
         """
         values = [dict(_arrays(table)) for table in tables]
         named = {
-            name: np.stack([each[name][0] for each in values]).astype(np.float64)
+            name: np.stack([arrays[name][0] for arrays in values]).astype(np.float64)
             for name in values[0]
         }
         kept = {
@@ -139,7 +139,7 @@ class _Columns:
         column = ca.vertcat(*(part[0] for part in parts.values()))
         # The rest is traced too: a plain array would convert symbols assigned to it to floats.
         rest = {name: value.astype(object).view(_Traced) for name, value in _arrays(table)}
-        return column, _with(table, {**rest, **{name: part[1] for name, part in parts.items()}})
+        return column, _replaced(table, {**rest, **{name: part[1] for name, part in parts.items()}})
 
 
 def _arrays(table: object, prefix: str = "") -> Iterator[tuple[str, NDArray[Any]]]:
@@ -152,7 +152,7 @@ def _arrays(table: object, prefix: str = "") -> Iterator[tuple[str, NDArray[Any]
             yield from _arrays(value, f"{name}_")
 
 
-def _with(table: Traceable, arrays: Mapping[str, Any], prefix: str = "") -> Traceable:
+def _replaced(table: Traceable, arrays: Mapping[str, Any], prefix: str = "") -> Traceable:
     """The table with the arrays of these names replaced."""
     changed = {}
     for field in fields(table):  # type: ignore[arg-type]
@@ -160,7 +160,7 @@ def _with(table: Traceable, arrays: Mapping[str, Any], prefix: str = "") -> Trac
         if name in arrays:
             changed[field.name] = arrays[name]
         elif is_dataclass(value):
-            changed[field.name] = _with(value, arrays, f"{name}_")
+            changed[field.name] = _replaced(value, arrays, f"{name}_")
     return replace(table, **changed)  # type: ignore[type-var]
 
 
@@ -179,8 +179,8 @@ class ManeuverConstants:
     @classmethod
     def of(cls, world: World) -> "ManeuverConstants":
         """Law and brake of a world."""
-        own = world.desaturation
-        return cls(world.law, None if own is None else stacked_columns([own]))
+        desaturation = world.desaturation
+        return cls(world.law, None if desaturation is None else stacked_columns([desaturation]))
 
 
 def targets_of(worlds: Sequence[World], period: float) -> list[list[Target]]:
@@ -188,22 +188,22 @@ def targets_of(worlds: Sequence[World], period: float) -> list[list[Target]]:
     longest = max(world.duration for world in worlds)
     times = period * np.arange(np.ceil(longest / period), dtype=np.float64)
     references = References(worlds, times, period)
-    found: list[list[Target]] = [[] for _ in worlds]
+    targets: list[list[Target]] = [[] for _ in worlds]
     for k in range(len(times)):
-        now = references.at(np.full(len(worlds), k))
-        for i, own in enumerate(found):
-            target = now.take(slice(i, i + 1))
+        current = references.at(np.full(len(worlds), k))
+        for i, world_targets in enumerate(targets):
+            target = current.take(slice(i, i + 1))
             plan = target.plan
             if plan is not None and not plan.holds.any():
                 # Unused numbers, which would make a separate row of each instant.
-                none = {name: np.zeros_like(value) for name, value in _arrays(plan)}
-                target = replace(target, plan=_with(plan, none))
-            own.append(target)
-    for own in found:
-        rows = _Columns.of(own).rows
+                zeros = {name: np.zeros_like(value) for name, value in _arrays(plan)}
+                target = replace(target, plan=_replaced(plan, zeros))
+            world_targets.append(target)
+    for world_targets in targets:
+        rows = _Columns.of(world_targets).rows
         changes = np.flatnonzero((rows != rows[-1]).any(axis=1))
-        del own[changes[-1] + 2 if changes.size else 1 :]
-    return found
+        del world_targets[changes[-1] + 2 if changes.size else 1 :]
+    return targets
 
 
 def law_function(
@@ -216,16 +216,16 @@ def law_function(
     """
     flown = [ManeuverConstants.of(world) for world in worlds]
     constants, columns = _Columns.of(flown, fixed=True), _Columns.of(targets)
-    constant_row, own = constants.traced(flown[0])
+    constant_row, traced = constants.traced(flown[0])
     target_row, target = columns.traced(targets[0])
     attitude, q = _symbols("attitude", (4,))
     rate, w = _symbols("rate", (3,))
     speed, W = _symbols("wheel_speed", flown[0].law.torque_map.shape[1:2])
     ground, stood = _symbols("ground_time", (1,))
     target = target.landed(stood[:, 0] > 0.0)
-    if own.brake is not None:
-        target = replace(target, torque=target.torque + own.brake.torque(W, stood))
-    torque = own.law.torque(quaternions.vertical(q), w, W, target, period, attitude=q)
+    if traced.brake is not None:
+        target = replace(target, torque=target.torque + traced.brake.torque(W, stood))
+    torque = traced.law.torque(quaternions.vertical(q), w, W, target, period, attitude=q)
     inputs = [attitude, rate, speed, ground, target_row, constant_row]
     return ca.Function("ocs_law", inputs, [ca.vertcat(*np.ravel(torque))]), constants, columns
 
@@ -249,29 +249,31 @@ def write_controller(
         delay: smallest and largest delay from measurement to torque that the design was sized
             for [s]; None: none.
     """
-    own = list(worlds.values())
-    targets = targets_of(own, period)
-    function, constants, columns = law_function(own, list(chain(*targets)), period)
-    counts = [len(each) for each in targets]
+    flown = list(worlds.values())
+    targets = targets_of(flown, period)
+    function, constants, columns = law_function(flown, list(chain(*targets)), period)
+    counts = [len(world_targets) for world_targets in targets]
     plain = [re.sub(r"[^A-Z0-9]+", "_", maneuver.upper()).strip("_") for maneuver in worlds]
     # A constant in C for each maneuver.
     identifiers = [
-        f"OCS_{each}" if each and plain.count(each) == 1 else f"OCS_{each or 'MANEUVER'}_{i}"
-        for i, each in enumerate(plain)
+        f"OCS_{name_in_c}"
+        if name_in_c and plain.count(name_in_c) == 1
+        else f"OCS_{name_in_c or 'MANEUVER'}_{i}"
+        for i, name_in_c in enumerate(plain)
     ]
     values = {
         "name": name,
         "wheels": str(function.size1_out(0)),
         "period": repr(period),
         "rate": f"{1.0 / period:g}",
-        "maneuvers": "".join(f"    {each},\n" for each in identifiers),
+        "maneuvers": "".join(f"    {identifier},\n" for identifier in identifiers),
         "legend": constants.legend,
         "constants": _rows(constants.rows),
         "constant_count": str(constants.rows.shape[1]),
         "target_legend": columns.legend,
         "targets": _rows(columns.rows),
         "target_count": str(max(columns.rows.shape[1], 1)),
-        "first": ", ".join(str(int(each)) for each in np.cumsum([0, *counts])),
+        "first": ", ".join(str(int(index)) for index in np.cumsum([0, *counts])),
         "body": _body(function),
         "table": "".join(
             f"| {i} | `{identifier}` | {maneuver} | {1e3 * period * (count - 1):.0f} ms |\n"
@@ -280,9 +282,9 @@ def write_controller(
             )
         ),
         "margins": _margin_table(worlds, period),
-        "delay": "" if delay is None else _DELAY.format(*(1e3 * each for each in delay)),
-        "brake": _LEFT if own[0].desaturation is None else _BRAKED,
-        "order": _order(worlds, joints),
+        "delay": "" if delay is None else _DELAY.format(*(1e3 * seconds for seconds in delay)),
+        "brake": _NOT_BRAKED if flown[0].desaturation is None else _BRAKED,
+        "order": _axes_table(worlds, joints),
     }
     for template, file in _FILES.items():
         (folder / file.format(name)).write_bytes(fill(template, values).encode())
@@ -310,13 +312,13 @@ def _body(function: ca.Function) -> str:
     """The function's arithmetic in C, without the code that CasADi adds for its own loader."""
     generator = ca.CodeGenerator("ocs_law.c", {"with_header": False})
     generator.add(function)
-    found = re.search(
+    match = re.search(
         r"^static int \w+\(.*?\{\n(.*?)^  return 0;\n\}", generator.dump(), re.S | re.M
     )
-    assert found, "CasADi writes C in an unknown form"
-    assert "casadi_nan" not in found.group(1), "a symbol was taken for a number"
+    assert match, "CasADi writes C in an unknown form"
+    assert "casadi_nan" not in match.group(1), "a symbol was taken for a number"
     # None of the pointers is null.
-    plain = re.sub(r"arg\[\d\]\? (arg\[\d\]\[\d+\]) : 0", r"\1", found.group(1))
+    plain = re.sub(r"arg\[\d\]\? (arg\[\d\]\[\d+\]) : 0", r"\1", match.group(1))
     return re.sub(r"if \(res\[0\]!=0\) ", "", plain).replace("casadi_", "ocs_")
 
 
@@ -331,28 +333,28 @@ def _margin_table(worlds: Mapping[str, World], period: float) -> str:
     rows = []
     for loop, margins in loops.items():
         for rate in sorted({1.0 / period, *SENSOR_RATES}):
-            each, own = margins(1.0 / rate), " (this design)" if rate == 1.0 / period else ""
+            margin, remark = margins(1.0 / rate), " (this design)" if rate == 1.0 / period else ""
             rows.append(
-                f"| {loop} | {rate:g} Hz{own} | {each.crossover:.2f} rad/s "
-                f"| {np.degrees(each.phase):.1f} deg | {1e3 * each.delay:.1f} ms |\n"
+                f"| {loop} | {rate:g} Hz{remark} | {margin.crossover:.2f} rad/s "
+                f"| {np.degrees(margin.phase):.1f} deg | {1e3 * margin.delay:.1f} ms |\n"
             )
     return "".join(rows)
 
 
 _DELAY = "This\ndesign was sized for {:.3g} to {:.3g} ms (`torque_delay` of its `[reality]`)."
-_LEFT = "This design does not brake the wheels in stance; `size --desaturate` does."
+_NOT_BRAKED = "This design does not brake the wheels in stance; `size --desaturate` does."
 _BRAKED = "After some time on the ground it also brakes the wheels (constants `brake_...`)."
 
 
-def _order(worlds: Mapping[str, World], joints: Sequence[str]) -> str:
+def _axes_table(worlds: Mapping[str, World], joints: Sequence[str]) -> str:
     """Markdown table of the wheels' axes; one column per maneuver if modules are turned by hand."""
     axes = {name: world.body.axes for name, world in worlds.items()}
     first = next(iter(axes.values()))
-    if all(np.array_equal(each, first) for each in axes.values()):
+    if all(np.array_equal(matrix, first) for matrix in axes.values()):
         axes = {"": first}
     head = "".join(f" axis in B{', ' if name else ''}{name} |" for name in axes)
     lines = [f"| index | joint |{head}\n", "|---|---|" + "---|" * len(axes) + "\n"]
     for i, joint in enumerate(joints):
-        of_each = (", ".join(f"{x + 0.0:.6f}" for x in each[:, i]) for each in axes.values())
+        of_each = (", ".join(f"{x + 0.0:.6f}" for x in matrix[:, i]) for matrix in axes.values())
         lines.append(f"| {i} | `{joint}` |" + "".join(f" ({axis}) |" for axis in of_each) + "\n")
     return "".join(lines)

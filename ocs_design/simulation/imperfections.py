@@ -20,7 +20,7 @@ from ocs_design.device.device import Flywheel
 from ocs_design.parts.printed import CLEARANCE
 from ocs_design.simulation.motor_limits import MotorLimits
 
-_SENSED = 5
+_NOISE_CHANNELS = 5
 """Numbers that noise is added to at each instant: two of attitude, three of rate."""
 
 
@@ -58,7 +58,7 @@ class Imperfections:
         generator = np.random.Generator(np.random.Philox(self.stream))
         deviation = np.repeat([self.attitude_noise, self.gyro_noise], [2, 3])
         bias = np.concatenate([self.attitude_bias, self.gyro_bias])
-        return np.asarray(bias + deviation * generator.standard_normal((instants, _SENSED)))
+        return np.asarray(bias + deviation * generator.standard_normal((instants, _NOISE_CHANNELS)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,7 +80,7 @@ class Sensing:
         self, imperfections: Sequence[Imperfections], lengths: Sequence[int], period: float
     ) -> None:
         """Sensors of worlds that each run for `lengths` control steps of `period` [s]."""
-        self._errors = np.zeros((max(lengths), len(lengths), _SENSED))
+        self._errors = np.zeros((max(lengths), len(lengths), _NOISE_CHANNELS))
         for world, (own, length) in enumerate(zip(imperfections, lengths, strict=True)):
             self._errors[:length, world] = own.noise(length)
         # Gravity says nothing about heading, so heading comes from integrating the gyroscope.
@@ -101,17 +101,17 @@ class Sensing:
         error = self._errors[k, : len(rate)]
         roll, pitch = error[:, 0], error[:, 1]
         x, y, z = vertical.T
-        seen = np.stack([x - z * pitch, y + z * roll, z + x * pitch - y * roll], axis=1)
-        return seen, rate + error[:, 2:]
+        tilted = np.stack([x - z * pitch, y + z * roll, z + x * pitch - y * roll], axis=1)
+        return tilted, rate + error[:, 2:]
 
     def attitude(self, k: int, attitude: FloatArray) -> FloatArray:
         """Attitudes that the first n worlds measure, quaternions (n, 4); see `measured`."""
         n = len(attitude)
         error = np.column_stack([self._errors[k, :n, :2], self._heading[k, :n]])
         half = np.column_stack([np.ones(n), 0.5 * error])
-        believed = quaternions.product(attitude, half)
-        length: FloatArray = np.linalg.norm(believed, axis=1, keepdims=True)
-        return believed / length
+        measured = quaternions.product(attitude, half)
+        length: FloatArray = np.linalg.norm(measured, axis=1, keepdims=True)
+        return measured / length
 
 
 class ImperfectDrives:
@@ -142,14 +142,14 @@ class ImperfectDrives:
         )
         self._air_factor = np.array([[own.air_factor] for own in imperfections])
         delay = np.array([own.delay for own in imperfections])
-        whole, part = np.divmod(delay, hold)
+        steps, remainder = np.divmod(delay, hold)
         # Until the fractional part of the delay has passed, the older command still holds.
-        self._back = whole[:, None] + (np.arange(hold) < part[:, None])
-        self._before = int(self._back.max())
-        self._commands = np.zeros((self._before + instants, *self._coulomb.shape))
+        self._delay_steps = steps[:, None] + (np.arange(hold) < remainder[:, None])
+        self._longest_delay = int(self._delay_steps.max())
+        self._commands = np.zeros((self._longest_delay + instants, *self._coulomb.shape))
         self._worlds = np.arange(len(delay))[:, None]
 
-    def driven(
+    def applied_torque(
         self, k: int, command: FloatArray, speed: FloatArray
     ) -> tuple[FloatArray, FloatArray]:
         """Torque of the motors, and the torque left for the wheels after friction [N m].
@@ -163,21 +163,21 @@ class ImperfectDrives:
             physics step, shape (n, hold, m).
         """
         n = len(command)
-        self._commands[self._before + k, :n] = command
-        heard = self._commands[self._before + k - self._back[:n], self._worlds[:n]]
+        self._commands[self._longest_delay + k, :n] = command
+        delayed = self._commands[self._longest_delay + k - self._delay_steps[:n], self._worlds[:n]]
         limits, gain = self._limits.take(slice(n)), self._gain[:n, None]
-        motor = limits.clipped(heard * self._torque_gain[:n, None], speed[:, None], gain)
+        motor = limits.clipped(delayed * self._torque_gain[:n, None], speed[:, None], gain)
         # The law limits its commands to the nominal motor's power; the supply limits the real one.
         motor = limits.within_supply(motor, speed[:, None], gain)
         # Written so that the mean of equal torques is that torque to the last bit.
         mean = motor[:, 0] + (motor - motor[:, :1]).mean(axis=1)
         # Friction is implicit: at most it brings a wheel to rest, and a wheel at rest stays there
         # until its motor overcomes friction.
-        turning = np.abs(speed)
-        air = self._air_factor[:n] * self._air.at(turning)
-        largest = self._coulomb[:n] + self._viscous[:n] * turning + air
+        speed_magnitude = np.abs(speed)
+        air = self._air_factor[:n] * self._air.at(speed_magnitude)
+        friction_max = self._coulomb[:n] + self._viscous[:n] * speed_magnitude + air
         to_rest = speed / self._gain[:n] + mean
-        friction = np.minimum(np.maximum(to_rest, -largest), largest)
+        friction = np.minimum(np.maximum(to_rest, -friction_max), friction_max)
         return mean, motor - friction[:, None]
 
 
@@ -193,9 +193,9 @@ _SPEEDS = np.concatenate([[0.0], np.geomspace(0.1, 2e4, 600)])
 
 def air_drag(wheel: Flywheel, gap: float = CLEARANCE) -> AirDrag:
     """Air drag of a wheel in its housing, with a clearance of `gap` [m] all round."""
-    turning = _SPEEDS[1:]
-    torque = disc_drag(turning, wheel.outer_radius, gap) + cylinder_drag(
-        turning, wheel.outer_radius, wheel.height, gap
+    speeds = _SPEEDS[1:]
+    torque = disc_drag(speeds, wheel.outer_radius, gap) + cylinder_drag(
+        speeds, wheel.outer_radius, wheel.height, gap
     )
     return AirDrag(_SPEEDS, np.concatenate([[0.0], torque]))
 

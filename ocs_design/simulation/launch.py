@@ -55,24 +55,25 @@ def launch(maneuver: Maneuver, standing_height: float, profile: Profile) -> Laun
     Raises:
         SpecificationError: a drop has no height to fall from.
     """
-    asked, (forward, up) = maneuver.boundary(standing_height), maneuver.takeoff
-    fallen, turned = quaternions.rotation_vector(asked.attitude), np.append(maneuver.angles, 0.0)
+    boundary, (forward, up) = maneuver.boundary(standing_height), maneuver.takeoff
+    initial_turn = quaternions.rotation_vector(boundary.attitude)
+    commanded_turn = np.append(maneuver.angles, 0.0)
     turn = NO_TURN
-    if not maneuver.on_pivot and fallen.any():
-        angle = float(np.linalg.norm(fallen))
-        turn = Turn(fallen / angle, angle, 0.0, asked.duration, profile, extendable=False)
-    elif not maneuver.on_pivot and turned.any():
-        angle = float(np.linalg.norm(turned))
-        turn = Turn(turned / angle, 0.0, angle, asked.duration, Quintic())
+    if not maneuver.on_pivot and initial_turn.any():
+        angle = float(np.linalg.norm(initial_turn))
+        turn = Turn(initial_turn / angle, angle, 0.0, boundary.duration, profile, extendable=False)
+    elif not maneuver.on_pivot and commanded_turn.any():
+        angle = float(np.linalg.norm(commanded_turn))
+        turn = Turn(commanded_turn / angle, 0.0, angle, boundary.duration, Quintic())
     return Launch(
-        rotation=quaternions.matrix(asked.attitude),
-        height=asked.height if maneuver.gravity else _AFLOAT,
+        rotation=quaternions.matrix(boundary.attitude),
+        height=boundary.height if maneuver.gravity else _ORBIT_HEIGHT,
         velocity=np.array([forward, 0.0, up]),
         turn=turn,
-        push=asked.push,
-        rate=asked.rate,
-        wheel_speed=asked.wheel_speed,
-        counted=asked.axis if maneuver.counts_turns else Y,
+        push=boundary.push,
+        rate=boundary.rate,
+        wheel_speed=boundary.wheel_speed,
+        counted=boundary.axis if maneuver.counts_turns else Y,
     )
 
 
@@ -82,12 +83,12 @@ def flight_time(maneuver: Maneuver, start: Launch, standing_height: float) -> fl
         return maneuver.boundary(standing_height).duration
     drop = 0.0 if start.height is None else start.height - standing_height
     # The push is counted as if at lift-off, which makes the flight a little too long.
-    gained = start.push.acceleration[2] * start.push.duration
-    up = start.velocity[2] + max(gained, 0.0)
+    push_velocity = start.push.acceleration[2] * start.push.duration
+    up = start.velocity[2] + max(push_velocity, 0.0)
     return float((up + np.sqrt(up**2 + 2.0 * maneuver.gravity * drop)) / maneuver.gravity)
 
 
-_AFLOAT = 100.0
+_ORBIT_HEIGHT = 100.0
 """Height of a robot in orbit over the model's floor, which it never touches [m]."""
 
 _CLEARANCE = 1e-3

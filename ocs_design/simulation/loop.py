@@ -27,10 +27,10 @@ _GRID = 4000
 _INSTANTS = 21
 """Number of instants of a plan at which margins are computed."""
 
-_DRIFT = 0.1
+_GROWTH_ALLOWANCE = 0.1
 """Allowance for rounding in a motion's growth rate, closed loop over open loop [1/s]."""
 
-_SMALL = 1e-4
+_DIFFERENCE_STEP = 1e-4
 """Step of the central differences that linearise the law [rad, rad/s]: their error is of the order
 of its square, plus rounding of one in 1e12."""
 
@@ -65,19 +65,21 @@ def loop_margins(
         held for too long is.
     """
     size, inputs = control.shape
-    held = expm(period * np.block([[state, control], [np.zeros((inputs, size + inputs))]]))
-    step, gain = held[:size, :size], held[:size, size:]
-    alone, closed = (np.abs(np.linalg.eigvals(a)).max() for a in (step, step - gain @ feedback))
+    discrete = expm(period * np.block([[state, control], [np.zeros((inputs, size + inputs))]]))
+    step, gain = discrete[:size, :size], discrete[:size, size:]
+    open_loop, closed_loop = (
+        np.abs(np.linalg.eigvals(a)).max() for a in (step, step - gain @ feedback)
+    )
     # Motions that the wheels do not reach may grow as without them: a trunk that spins about its
     # intermediate axis.
-    if closed > max(alone, 1.0) * np.exp(_DRIFT * period):
+    if closed_loop > max(open_loop, 1.0) * np.exp(_GROWTH_ALLOWANCE * period):
         return LoopMargins(0.0, 0.0, 0.0)
 
     def eigenvalues(frequency: FloatArray) -> NDArray[np.complex128]:
         z = np.exp(1j * period * frequency)[:, None, None]
         loop = feedback @ np.linalg.solve(z * np.eye(size) - step, gain + 0j * z)
-        found = np.linalg.eigvals(loop).astype(np.complex128)
-        return np.take_along_axis(found, np.argsort(np.abs(found), axis=1), axis=1)
+        values = np.linalg.eigvals(loop).astype(np.complex128)
+        return np.take_along_axis(values, np.argsort(np.abs(values), axis=1), axis=1)
 
     frequency = np.geomspace(1e-4, 1.0, _GRID) * np.pi / period
     level = np.log(np.maximum(np.abs(eigenvalues(frequency)), 1e-300))
@@ -87,12 +89,12 @@ def loop_margins(
     first, last = level[before, which], level[before + 1, which]
     part = first / np.where(first == last, 1.0, first - last)
     crossing = frequency[before] * (frequency[before + 1] / frequency[before]) ** part
-    there = np.take_along_axis(eigenvalues(crossing), which[:, None], axis=1)[:, 0]
-    phase = np.angle(-there)
-    late = np.mod(phase, 2.0 * np.pi) / crossing
-    soonest = int(np.argmin(late))
+    at_crossing = np.take_along_axis(eigenvalues(crossing), which[:, None], axis=1)[:, 0]
+    phase = np.angle(-at_crossing)
+    delays = np.mod(phase, 2.0 * np.pi) / crossing
+    smallest = int(np.argmin(delays))
     return LoopMargins(
-        float(crossing[soonest]), float(np.abs(phase[soonest])), float(late[soonest])
+        float(crossing[smallest]), float(np.abs(phase[smallest])), float(delays[smallest])
     )
 
 
@@ -106,11 +108,13 @@ def level_margins(law: WheelLaw, body: Gyrostat, period: float) -> LoopMargins:
     def torque(state: FloatArray) -> FloatArray:
         roll, pitch = state[:2]
         vertical = np.array([[-pitch, roll, 1.0]])
-        found = linear.torque(vertical, state[None, 3:6], state[None, 6:], level, period)
-        return np.asarray(found[0])
+        commanded = linear.torque(vertical, state[None, 3:6], state[None, 6:], level, period)
+        return np.asarray(commanded[0])
 
-    steps = _SMALL * np.eye(6 + n)
-    feedback = -np.stack([(torque(e) - torque(-e)) / (2.0 * _SMALL) for e in steps], axis=1)
+    steps = _DIFFERENCE_STEP * np.eye(6 + n)
+    feedback = -np.stack(
+        [(torque(e) - torque(-e)) / (2.0 * _DIFFERENCE_STEP) for e in steps], axis=1
+    )
     system = linearised(body, none, np.zeros((1, n)))[0]
     return loop_margins(system[:, : 6 + n], system[:, 6 + n :], feedback, period)
 
@@ -125,4 +129,4 @@ def plan_margins(trajectory: Trajectory, body: Gyrostat, period: float) -> LoopM
         loop_margins(systems[k, :, :size], systems[k, :, size:], trajectory.gains[k], period)
         for k in instants
     ]
-    return min(margins, key=lambda each: each.delay)
+    return min(margins, key=lambda margin: margin.delay)

@@ -42,7 +42,7 @@ def record_margins(
         plans: references of the maneuvers, by name.
     """
     if designed.choice is None:
-        found = tuple(_margins_without_motor(resolved, designed, runs))
+        device_margins = tuple(_margins_without_motor(resolved, designed, runs))
     else:
         wheel = designed.choice.chosen
         maneuvers = {maneuver.name: maneuver for maneuver in resolved.requirement.maneuvers}
@@ -51,14 +51,14 @@ def record_margins(
             for name, motion in _motions(plans, runs)
         )
         braked = _brake_margins(resolved, designed, plans)
-        found = (*worst((*driven, *braked)), *joints_of(designed.device))
-    made, envelope = designed.device.flywheel, resolved.envelope
-    room = (
-        Margin("outer radius", made.outer_radius, envelope.outer_radius_max, "m"),
-        Margin("height", made.height, envelope.height_max, "m"),
-        Margin("rim mass", made.rim_mass, envelope.mass_max, "kg"),
+        device_margins = (*worst((*driven, *braked)), *joints_of(designed.device))
+    flywheel, envelope = designed.device.flywheel, resolved.envelope
+    envelope_margins = (
+        Margin("outer radius", flywheel.outer_radius, envelope.outer_radius_max, "m"),
+        Margin("height", flywheel.height, envelope.height_max, "m"),
+        Margin("rim mass", flywheel.rim_mass, envelope.mass_max, "kg"),
     )
-    return (*found, *room)
+    return (*device_margins, *envelope_margins)
 
 
 def _motions(
@@ -82,9 +82,11 @@ def _motions(
     for run in runs:
         if not run.ocs or run.metrics is None:
             continue
-        series, left, landed = run.series, run.metrics.lift_off_time, run.metrics.touchdown_time
-        lift_off = np.inf if left is None else left
-        touchdown = np.inf if landed is None else landed
+        series = run.series
+        lift_off_time = run.metrics.lift_off_time
+        touchdown_time = run.metrics.touchdown_time
+        lift_off = np.inf if lift_off_time is None else lift_off_time
+        touchdown = np.inf if touchdown_time is None else touchdown_time
         in_the_air = (series.time >= lift_off) & (series.time <= touchdown)
         for part in (np.full(series.time.shape, True), in_the_air):
             if np.count_nonzero(part) > 1:
@@ -104,16 +106,16 @@ def _brake_margins(
 ) -> Iterator[tuple[str, tuple[Margin, ...]]]:
     """Demands on the wheels and their joints of a brake that grips the wheels, as the Cubli's."""
     device, drive = designed.device, designed.device.motor
-    shaft = next((each for each in joints_of(device) if each.name == SHAFT_JOINT), None)
+    shaft = next((joint for joint in joints_of(device) if joint.name == SHAFT_JOINT), None)
     fit = rim_fit(device)
     for maneuver in resolved.requirement.maneuvers:
         plan = plans.get(maneuver.name)
         if plan is None or not plan.spun:
             continue
-        slowed = plan.spun / maneuver.stop
+        deceleration = plan.spun / maneuver.stop
         where = f"from {rpm(plan.spun)} in {1e3 * maneuver.stop:.2g} ms"
-        wheel = device.flywheel.spin_inertia * slowed
-        rotor = SERVICE * (abs(drive.rotor_inertia) + drive.armature) * slowed
+        wheel = device.flywheel.spin_inertia * deceleration
+        rotor = SERVICE * (abs(drive.rotor_inertia) + drive.armature) * deceleration
         rows = [
             Margin(
                 BRAKE_TORQUE, wheel, None, "N m", note=f"on each wheel and what holds it, {where}"
@@ -135,7 +137,7 @@ def _margins_without_motor(
     device, wheel = designed.device, designed.device.flywheel
     driven = [run for run in runs if run.ocs and run.metrics is not None]
     limit = device.motor.torque_limit
-    least = max((demand.torque for demand in designed.sized.demands), default=0.0)
+    least_torque = max((demand.torque for demand in designed.sized.demands), default=0.0)
     if driven:
         speeds, torques = (
             [float(np.abs(getattr(run.series, name)).max()) for run in driven]
@@ -146,9 +148,13 @@ def _margins_without_motor(
         names = [run.scenario for run in driven]
         yield Margin(WHEEL_SPEED, speeds[speed], capacity, "rad/s", scenario=names[speed])
         yield Margin(MOTOR_TORQUE, torques[torque], limit, "N m", note=at, scenario=names[torque])
-    elif least > 0.0:
+    elif least_torque > 0.0:
         yield Margin(
-            MOTOR_TORQUE, least, limit, "N m", note="the least that completes the maneuvers in time"
+            MOTOR_TORQUE,
+            least_torque,
+            limit,
+            "N m",
+            note="the least that completes the maneuvers in time",
         )
     if wheel.hoop_stress is not None:
         strength = resolved.material.yield_strength

@@ -18,20 +18,20 @@ from ocs_design.simulation.world import World
 UPRIGHT_HEIGHT = 0.5
 """Smallest height of the trunk of a robot that stands, over its standing height."""
 
-_SLOW = np.radians(1.0)
+_NO_TURNING_RATE = np.radians(1.0)
 """Turning rate below which a flight counts as one without any turning [rad/s]."""
 
-_AT_REST = np.radians(1.0)
+_SETTLED_ANGLE = np.radians(1.0)
 """Largest angle from its final attitude at which a trunk has settled [rad]."""
 
 
 def series_of(recording: Recording, index: int, world: World) -> Series:
     """Time series of one world of a recording."""
-    ran = slice(recording.lengths[index])
-    attitude, speed = recording.attitude[ran, index], recording.wheel_speed[ran, index]
+    instants = slice(recording.lengths[index])
+    attitude, speed = recording.attitude[instants, index], recording.wheel_speed[instants, index]
     roll, pitch = quaternions.tilt(attitude)
     limits = world.limits
-    torque = recording.wheel_torque[ran, index]
+    torque = recording.wheel_torque[instants, index]
     lowest, highest = (None, None) if limits is None else limits.torque_range(speed)
     power, current = None, None
     if limits is not None and limits.voltage is not None:
@@ -43,17 +43,17 @@ def series_of(recording: Recording, index: int, world: World) -> Series:
         power = np.where(np.abs(last) > np.abs(first), last, first)
         current = power / limits.voltage
     return Series(
-        time=recording.time[ran],
-        com=recording.com[ran, index],
+        time=recording.time[instants],
+        com=recording.com[instants, index],
         roll=roll,
         pitch=np.unwrap(pitch),
         yaw=np.unwrap(quaternions.heading(attitude)),
-        rate=recording.rate[ran, index],
+        rate=recording.rate[instants, index],
         wheel_speed=speed,
         wheel_torque=torque,
         torque_lowest=lowest,
         torque_highest=highest,
-        contact=recording.contact[ran, index].astype(np.float64),
+        contact=recording.contact[instants, index].astype(np.float64),
         wheels=world.wheels,
         bus_power=power,
         bus_current=current,
@@ -86,13 +86,13 @@ def measure(recording: Recording, index: int, world: World) -> Metrics | None:
         pitch = np.unwrap(pitch)
 
     # Roll and pitch have settled once they stay near their final values.
-    off = np.maximum(np.abs(roll - roll[-1]), np.abs(pitch - pitch[-1]))
-    moving = np.flatnonzero(off[after] > _AT_REST)
+    deviation = np.maximum(np.abs(roll - roll[-1]), np.abs(pitch - pitch[-1]))
+    moving = np.flatnonzero(deviation[after] > _SETTLED_ANGLE)
     settled = last + (int(moving[-1]) + 1 if moving.size else 0)
 
     _, x, y, _ = attitude[end]
-    rises = 1.0 - 2.0 * (x * x + y * y) > np.cos(UPRIGHT_TILT)
-    above = recording.height[end, index] > UPRIGHT_HEIGHT * world.standing_height
+    is_upright = 1.0 - 2.0 * (x * x + y * y) > np.cos(UPRIGHT_TILT)
+    is_high = recording.height[end, index] > UPRIGHT_HEIGHT * world.standing_height
     # Nutation of `J w_dot = -w x h A W`, about the axes of the two smallest inertias.
     body = world.body
     momentum = (
@@ -116,7 +116,7 @@ def measure(recording: Recording, index: int, world: World) -> Metrics | None:
         final_wheel_speed=float(np.abs(series.wheel_speed[-1]).max()),
         peak_wheel_torque=float(np.abs(series.wheel_torque[driven]).max()),
         momentum_error=_momentum_error(recording, index, flight, world),
-        upright_at_end=bool(rises and above),
+        upright_at_end=bool(is_upright and is_high),
         final_roll=float(roll[-1]),
         final_pitch=_within_half_turn(pitch[-1]),
         roll_swing=float(np.ptp(roll[after])),
@@ -154,9 +154,9 @@ def _momentum_error(recording: Recording, index: int, flown: slice, world: World
         unexplained = unexplained @ np.outer(edge, edge)
     wheels = world.body.spin_inertia * np.abs(recording.wheel_speed[flight, index]).max()
     turning = recording.rate[flight, index] @ world.body.inertia
-    moved = wheels + np.linalg.norm(turning, axis=1).max()
-    still = _SLOW * np.trace(world.body.inertia) / 3.0
-    return float(np.linalg.norm(unexplained, axis=1).max() / max(moved, still))
+    scale = wheels + np.linalg.norm(turning, axis=1).max()
+    least_scale = _NO_TURNING_RATE * np.trace(world.body.inertia) / 3.0
+    return float(np.linalg.norm(unexplained, axis=1).max() / max(scale, least_scale))
 
 
 def _within_half_turn(angle: float) -> float:
@@ -200,9 +200,9 @@ def breakdown(recording: Recording, index: int) -> str:
     if recording.stable[index]:
         return ""
     code = int(recording.warning[index])
-    said = f": MuJoCo stopped at {_WARNINGS[code]}" if code in _WARNINGS else ""
+    cause = f": MuJoCo stopped at {_WARNINGS[code]}" if code in _WARNINGS else ""
     return (
-        f"not judged: the simulation became unstable{said}; run `ocs-design inspect` and look for "
+        f"not judged: the simulation became unstable{cause}; run `ocs-design inspect` and look for "
         "links with next to no inertia and for implausible values"
     )
 
@@ -239,5 +239,5 @@ def drive_growth(model: mujoco.MjModel, data: mujoco.MjData) -> float:
     motion[:n, n:] = np.eye(n)
     motion[n:] = -np.linalg.solve(mass, np.hstack([np.diag(stiffness), np.diag(damping)]))
     z = np.linalg.eigvals(motion) * model.opt.timestep
-    stretched = np.abs(1.0 + z * (1.0 + z / 2.0 * (1.0 + z / 3.0 * (1.0 + z / 4.0))))
-    return float(stretched.max() - 1.0)
+    growth = np.abs(1.0 + z * (1.0 + z / 2.0 * (1.0 + z / 3.0 * (1.0 + z / 4.0))))
+    return float(growth.max() - 1.0)

@@ -11,10 +11,10 @@ from ocs_design.actuation.drive import RESERVE, Drive, power_less_friction
 from ocs_design.actuation.supply import Supply
 from ocs_design.common.arrays import FloatArray, Table
 
-_ENDLESS = 1e100
+_UNLIMITED_POWER = 1e100
 """Stand-in for unlimited power, finite so that its products are too [W]."""
 
-USED = 0.99
+USED_SHARE = 0.99
 """Share of voltage and of the supply's power that the law uses. The rest exceeds what else changes
 the wheels' speed and power within a control step, as when the trunk hits the ground."""
 
@@ -90,9 +90,9 @@ class MotorLimits(Table):
             torque: commanded [N m]. speed: of the wheels now [rad/s].
             gain: change of speed in a control step per torque [rad/s/(N m)].
         """
-        give, line = gain + self.line_slope, self.no_load_speed
-        highest = np.minimum((line - speed) / give, (self.speed_max - speed) / gain)
-        lowest = np.maximum((-line - speed) / give, (-self.speed_max - speed) / gain)
+        speed_per_torque, line = gain + self.line_slope, self.no_load_speed
+        highest = np.minimum((line - speed) / speed_per_torque, (self.speed_max - speed) / gain)
+        lowest = np.maximum((-line - speed) / speed_per_torque, (-self.speed_max - speed) / gain)
         driven = np.minimum(np.maximum(torque, lowest), highest)
         return np.minimum(np.maximum(driven, -self.torque_limit), self.torque_limit)
 
@@ -111,7 +111,7 @@ class MotorLimits(Table):
         """
         if np.isinf(self.power_max).all():
             return torque
-        limit = np.minimum(self.power_max, _ENDLESS)[..., 0]
+        limit = np.minimum(self.power_max, _UNLIMITED_POWER)[..., 0]
         shaft, efficiency = torque * speed, self.efficiency
         heat = (self.copper * torque**2).sum(axis=-1)
         factor = np.ones_like(heat)
@@ -126,12 +126,14 @@ class MotorLimits(Table):
             depth = linear + np.sqrt(linear**2 + 4.0 * square * limit)
             factor = np.minimum(factor, 2.0 * limit / np.maximum(depth, 2.0 * limit))
         share = np.where(shaft > 0.0, 1.0 / efficiency, efficiency)
-        given = (share * shaft).sum(axis=-1)
+        braking_power = (share * shaft).sum(axis=-1)
         # Beyond the larger root, the windings burn enough of the braking power.
-        root = np.sqrt(np.maximum(given**2 - 4.0 * heat * limit, 0.0))
-        feeds = factor * (heat * factor + given) < -limit
-        least = 2.0 * limit / np.where(feeds, root - given, 1.0)
-        scaled: FloatArray = torque * np.where(feeds, np.minimum(factor, least), factor)[..., None]
+        root = np.sqrt(np.maximum(braking_power**2 - 4.0 * heat * limit, 0.0))
+        regenerates = factor * (heat * factor + braking_power) < -limit
+        least = 2.0 * limit / np.where(regenerates, root - braking_power, 1.0)
+        scaled: FloatArray = (
+            torque * np.where(regenerates, np.minimum(factor, least), factor)[..., None]
+        )
         return scaled
 
     @property
@@ -140,9 +142,9 @@ class MotorLimits(Table):
         return bool(np.isfinite(self.torque_limit) or self.line_slope > 0.0)
 
     @property
-    def used(self) -> "MotorLimits":
-        """Limits that the wheel law uses (`USED`); it does not need the supply's voltage."""
-        line, power = USED * self.no_load_speed, USED * self.power_max
+    def usable(self) -> "MotorLimits":
+        """Limits that the wheel law uses (`USED_SHARE`); it does not need the supply's voltage."""
+        line, power = USED_SHARE * self.no_load_speed, USED_SHARE * self.power_max
         return replace(self, no_load_speed=line, power_max=power, voltage=None)
 
     def reserved(self) -> "MotorLimits":

@@ -13,7 +13,7 @@ from ocs_design.simulation.world import World
 
 
 @dataclass(frozen=True, eq=False)
-class Seen:
+class SensorReadings:
     """Sensor readings of a trunk with m wheels at one control instant.
 
     Attributes:
@@ -46,8 +46,8 @@ class PilotedFlight(Batch):
         self._physics = [mujoco.MjData(world.model)]
         self._pool = Rollout(nthread=0)
         self._instant = 0
-        self.seen = self._look()
-        while not self.ended and self.flown < 0:
+        self.readings = self._read_sensors()
+        while not self.ended and self.steps_since_lift_off < 0:
             self.fly(np.zeros(len(self._wheels)))
 
     @property
@@ -56,12 +56,12 @@ class PilotedFlight(Batch):
         return self._instant >= self._lengths[0] or not np.isfinite(self._state).all()
 
     @property
-    def flown(self) -> int:
+    def steps_since_lift_off(self) -> int:
         """Control steps since lift-off; negative on the ground before it."""
         return int(self._clock.steps(self._instant, 1)[0])
 
     @property
-    def touches(self) -> bool:
+    def in_contact(self) -> bool:
         """Whether anything touched the floor in the last control step."""
         return bool(self._record.contact[self._instant - 1, 0])
 
@@ -73,26 +73,29 @@ class PilotedFlight(Batch):
 
     def fly(self, torque: FloatArray) -> None:
         """One control step with these motor commands [N m], (m,), clipped as the law's are."""
-        k, speed = self._instant, self.seen.wheel_speed[None]
-        asked = self._law.possible(torque[None], speed, self._period)
-        if self.flown < 0:
-            asked[:] = 0.0
+        k, speed = self._instant, self.readings.wheel_speed[None]
+        commanded = self._law.feasible_torque(torque[None], speed, self._period)
+        if self.steps_since_lift_off < 0:
+            commanded[:] = 0.0
         if self._stopped is not None:
-            asked = self._stopped.left(self._clock.steps(k, 1), asked)
-        self.advance(self._pool, self._physics, k, self.driven(k, asked))
+            commanded = self._stopped.without_stopped(self._clock.steps(k, 1), commanded)
+        self.advance(self._pool, self._physics, k, self.applied_torque(k, commanded))
         self.record_sensors(k, 1)
         self._instant += 1
         if not self.ended:
-            self.seen = self._look()
+            self.readings = self._read_sensors()
 
     def recording(self) -> Recording:
         """What happened, once it has ended."""
         return self.recorded(self._physics[0])
 
-    def _look(self) -> Seen:
-        asked, (vertical, rate, attitude) = self.observe_and_decide(self._instant, self._law)
+    def _read_sensors(self) -> SensorReadings:
+        commanded, (vertical, rate, attitude) = self.observe_and_decide(self._instant, self._law)
         speed = self._record.wheel_speed[self._instant, :1].copy()
-        gain, most = (self._law.wheel_response * self._period)[:, None], np.full_like(speed, np.inf)
-        low, high = (self._law.limits.clipped(all_of, speed, gain)[0] for all_of in (-most, most))
+        gain = (self._law.wheel_response * self._period)[:, None]
+        unlimited = np.full_like(speed, np.inf)
+        low, high = (
+            self._law.limits.clipped(torque, speed, gain)[0] for torque in (-unlimited, unlimited)
+        )
         heading = quaternions.heading(attitude)[0]
-        return Seen(vertical[0], heading, rate[0], speed[0], asked[0], low, high)
+        return SensorReadings(vertical[0], heading, rate[0], speed[0], commanded[0], low, high)

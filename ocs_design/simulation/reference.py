@@ -10,11 +10,11 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.simulation.motor_limits import MotorLimits
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 
-_FLATTENED = (
+_TRAPEZOID_NOTE = (
     f"the turn follows a trapezoidal rate profile instead of the quintic, which would take more "
     f"than {RESERVE:.0%} of the motors' voltage or current"
 )
-_STEPPED = (
+_STEP_NOTE = (
     "the turn is commanded as a step, as in the paper: no smooth profile that the motors can "
     "follow ends before touchdown"
 )
@@ -154,9 +154,9 @@ def fit_turn(turn: Turn, body: Gyrostat, limits: MotorLimits) -> Turn:
     options = [replace(turn, profile=SmoothTrapezoid(float(ramp))) for ramp in ramps]
     for option in options:
         if utilisation(option, body, usable) <= 1.0:
-            return replace(option, note=_FLATTENED)
+            return replace(option, note=_TRAPEZOID_NOTE)
     if not turn.extendable:
-        return replace(turn, profile=Step(), note=_STEPPED)
+        return replace(turn, profile=Step(), note=_STEP_NOTE)
     stretched = []
     for option in (turn, *options):
         # The shortest time that keeps the limits, by bisection.
@@ -187,13 +187,15 @@ def utilisation(turn: Turn, body: Gyrostat, limits: MotorLimits) -> float:
     s = np.linspace(0.0, 1.0, 401)
     rate = turn.span / turn.duration * turn.profile.rate(s)
     acceleration = turn.span / turn.duration**2 * turn.profile.acceleration(s)
-    momentum = body.reaction * body.sharing @ _turned(body.inertia, turn.axis)
+    momentum = body.reaction * body.sharing @ _momentum_per_rate(body.inertia, turn.axis)
     speed = np.outer(momentum / body.spin_inertia, rate)
-    torque = np.outer(body.sharing @ _turned(body.actuated_inertia, turn.axis), acceleration)
+    torque = np.outer(
+        body.sharing @ _momentum_per_rate(body.actuated_inertia, turn.axis), acceleration
+    )
     return limits.utilisation(speed, torque)
 
 
-def _turned(inertia: FloatArray, axis: FloatArray) -> FloatArray:
+def _momentum_per_rate(inertia: FloatArray, axis: FloatArray) -> FloatArray:
     """Momentum per rate of a turn whose heading drifts so that none is about yaw, shape (3,)."""
     drift = -(inertia[2, :2] @ axis[:2]) / inertia[2, 2]
     momentum: FloatArray = inertia @ np.append(axis[:2], drift)

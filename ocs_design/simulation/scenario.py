@@ -26,10 +26,10 @@ from ocs_design.simulation.verdict import (
     MOMENTUM_GATE,
     Fault,
     Verdict,
-    comes_down_well,
+    attitude_error_at_touchdown,
     judge,
     lands_on_legs,
-    off_at_touchdown,
+    lands_well,
     stands,
 )
 from ocs_design.simulation.world import World
@@ -38,7 +38,7 @@ from ocs_design.sizing.trajectory.motion import Trajectory
 
 
 @dataclass(frozen=True, eq=False)
-class Flown:
+class FlownWorld:
     """One world, flown: its place in a recording, and `metrics` as in `Run`."""
 
     world: World
@@ -102,15 +102,15 @@ class Flights:
         """Builder of their worlds."""
         return WorldBuilder(self.robot, self.device, self.options)
 
-    def starts(self, maneuver: Maneuver) -> JumpPlans:
+    def jump_plans(self, maneuver: Maneuver) -> JumpPlans:
         """How the legs begin a maneuver."""
         return self.jumps.get(maneuver.name, BALLISTIC)
 
-    def driven(self, maneuver: Maneuver) -> World:
+    def device_world(self, maneuver: Maneuver) -> World:
         """World of a maneuver with the device."""
         reference = self.references.get(maneuver.name)
         return self.builder.flight(
-            maneuver, Wheels.ACTIVE, reference, self.starts(maneuver).carrying
+            maneuver, Wheels.ACTIVE, reference, self.jump_plans(maneuver).carrying
         )
 
 
@@ -124,44 +124,47 @@ def run_scenarios(flights: Flights, progress: Progress | None = None) -> tuple[R
         world
         for maneuver in maneuvers
         for world in (
-            flights.driven(maneuver),
-            builder.flight(maneuver, Wheels.ABSENT, None, flights.starts(maneuver).bare),
+            flights.device_world(maneuver),
+            builder.flight(maneuver, Wheels.ABSENT, None, flights.jump_plans(maneuver).bare),
         )
     ]
     flown = fly(worlds, flights.options, progress)
     pairs = list(zip(flown[::2], flown[1::2], strict=True))
-    unclear = refusal(robot)
+    robot_objection = refusal(robot)
 
     # If flights land well but none of them stands, either the legs or the device is at fault.
     # In orbit there is nothing to stand on, and no robot stands on its back.
     can_stand = [
-        True if robot.legs and each.gravity and lands_on_legs(each) else None for each in maneuvers
+        True if robot.legs and maneuver.gravity and lands_on_legs(maneuver) else None
+        for maneuver in maneuvers
     ]
     doubtful = []
     for index, (maneuver, pair) in enumerate(zip(maneuvers, pairs, strict=True)):
-        down = [flight.metrics for flight in pair if comes_down_well(flight.metrics, maneuver)]
-        lands = can_stand[index] and not maneuver.on_pivot
-        if lands and down and not any(stands(metrics) for metrics in down):
+        well_landed = [flight.metrics for flight in pair if lands_well(flight.metrics, maneuver)]
+        can_be_judged = can_stand[index] and not maneuver.on_pivot
+        if can_be_judged and well_landed and not any(stands(metrics) for metrics in well_landed):
             doubtful.append(index)
     landings = [
-        builder.flight(each, Wheels.BRAKED, None, flights.starts(each).carrying, level=True)
-        for each in [maneuvers[index] for index in doubtful]
+        builder.flight(
+            maneuver, Wheels.BRAKED, None, flights.jump_plans(maneuver).carrying, level=True
+        )
+        for maneuver in [maneuvers[index] for index in doubtful]
     ]
     for index, flight in zip(doubtful, fly(landings, flights.options), strict=True):
         can_stand[index] = stands(flight.metrics)
 
     runs = []
-    for maneuver, pair, legs in zip(maneuvers, pairs, can_stand, strict=True):
+    for maneuver, pair, legs_can_stand in zip(maneuvers, pairs, can_stand, strict=True):
         for flight, ocs in zip(pair, (True, False), strict=True):
-            against = unclear or flight.objection
+            reason = robot_objection or flight.objection
             verdict = judge(
                 flight.metrics,
                 maneuver,
-                can_stand=legs,
-                objection=against,
+                can_stand=legs_can_stand,
+                objection=reason,
                 legs=len(robot.legs),
             )
-            runs.append(flight.run(maneuver.name, verdict, ocs=ocs, can_stand=legs))
+            runs.append(flight.run(maneuver.name, verdict, ocs=ocs, can_stand=legs_can_stand))
     return tuple(runs)
 
 
@@ -181,23 +184,23 @@ def fly_stopped(
     device = flights.device
     flown: list[tuple[Maneuver, StoppedDrive, World]] = []
     for maneuver in flights.maneuvers:
-        world = flights.driven(maneuver)
+        world = flights.device_world(maneuver)
         for wheel in range(len(device.modules)):
-            for part in range(STOPS):
-                stopped = StoppedDrive(wheel, part / STOPS * world.flight_time, detection)
+            for index in range(STOPS):
+                stopped = StoppedDrive(wheel, index / STOPS * world.flight_time, detection)
                 flown.append((maneuver, stopped, replace(world, stopped=stopped)))
-    found, worlds = [], [world for *_, world in flown]
-    ends = fly(worlds, flights.options, progress)
-    for (maneuver, stopped, _), flight in zip(flown, ends, strict=True):
-        against = refusal(flights.robot) or flight.objection
+    records, worlds = [], [world for *_, world in flown]
+    flown_again = fly(worlds, flights.options, progress)
+    for (maneuver, stopped, _), flight in zip(flown, flown_again, strict=True):
+        reason = refusal(flights.robot) or flight.objection
         # The landing counts, not whether the legs then keep the robot up.
         can_stand = True if maneuver.on_feet else None
-        verdict = judge(flight.metrics, maneuver, can_stand=can_stand, objection=against)
+        verdict = judge(flight.metrics, maneuver, can_stand=can_stand, objection=reason)
         tilt, ended = None, flight.metrics
         if ended is not None and verdict.fault is not Fault.UNSOUND:
             final = max(abs(ended.final_roll), abs(ended.final_pitch))
-            tilt = final if maneuver.on_feet else off_at_touchdown(ended, maneuver)
-        found.append(
+            tilt = final if maneuver.on_feet else attitude_error_at_touchdown(ended, maneuver)
+        records.append(
             StoppedRecord(
                 scenario=maneuver.name,
                 module=device.modules[stopped.wheel].name,
@@ -207,18 +210,20 @@ def fly_stopped(
                 reason=verdict.reason.partition(";")[0],
             )
         )
-    return SurvivalRecord(detection=detection, flights=tuple(found))
+    return SurvivalRecord(detection=detection, flights=tuple(records))
 
 
-HALVINGS = 2
+MOST_HALVINGS = 2
 """Most times that the physics step is halved; each halving leaves a sixteenth of the error."""
 
 
-def fly(worlds: Sequence[World], options: Options, progress: Progress | None = None) -> list[Flown]:
+def fly(
+    worlds: Sequence[World], options: Options, progress: Progress | None = None
+) -> list[FlownWorld]:
     """Fly worlds, and again at half the step those whose momentum error exceeds the gate."""
-    flights = _flown(worlds, options, progress)
+    flights = _simulated(worlds, options, progress)
     # In single precision the error is rounding, which shorter steps increase.
-    for _ in range(HALVINGS if options.engine is None else 0):
+    for _ in range(MOST_HALVINGS if options.engine is None else 0):
         coarse = [
             (index, flight.metrics.momentum_error)
             for index, flight in enumerate(flights)
@@ -226,28 +231,28 @@ def fly(worlds: Sequence[World], options: Options, progress: Progress | None = N
             and flight.metrics.momentum_error > MOMENTUM_GATE
             and not flight.objection
         ]
-        again = []
+        refined = []
         for index, error in coarse:
             world = flights[index].world
             model, drives = copy(world.model), world.imperfections
             model.opt.timestep /= 2.0
             step = 1e3 * model.opt.timestep
-            why = (
+            remark = (
                 f"flown again with steps of {step:g} ms: at {2.0 * step:g} ms its angular momentum "
                 f"was off by {error:.1e}"
             )
             if drives is not None:
                 drives = replace(drives, delay=2 * drives.delay)
-            note = "; ".join(filter(None, (worlds[index].note, why)))
-            again.append(replace(world, model=model, imperfections=drives, note=note))
-        for (index, _error), flight in zip(coarse, _flown(again, options), strict=True):
+            note = "; ".join(filter(None, (worlds[index].note, remark)))
+            refined.append(replace(world, model=model, imperfections=drives, note=note))
+        for (index, _error), flight in zip(coarse, _simulated(refined, options), strict=True):
             flights[index] = flight
     return flights
 
 
-def _flown(
+def _simulated(
     worlds: Sequence[World], options: Options, progress: Progress | None = None
-) -> list[Flown]:
+) -> list[FlownWorld]:
     if not worlds:
         return []
     recording = simulate(
@@ -259,7 +264,7 @@ def _flown(
         engine=options.engine,
     )
     return [
-        Flown(world, recording, index, measure(recording, index, world))
+        FlownWorld(world, recording, index, measure(recording, index, world))
         for index, world in enumerate(worlds)
     ]
 

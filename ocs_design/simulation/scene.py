@@ -72,9 +72,9 @@ def robot_scene(robot: Robot) -> mujoco.MjSpec:
         body.gravcomp = 0.0
     # Posture and drives follow the tree, in which closed chains are cut open and joints are free
     # that an equality would hold still or couple nonlinearly.
-    led = {name for name, joint in robot.tree.joints.items() if joint.mimic is not None}
+    followers = {name for name, joint in robot.tree.joints.items() if joint.mimic is not None}
     for tie in list(spec.equalities):
-        if tie.type in TIES or (tie.type == mujoco.mjtEq.mjEQ_JOINT and tie.name1 not in led):
+        if tie.type in TIES or (tie.type == mujoco.mjtEq.mjEQ_JOINT and tie.name1 not in followers):
             spec.delete(tie)
     add_floor(spec)
     add_drives(spec, robot)
@@ -82,9 +82,9 @@ def robot_scene(robot: Robot) -> mujoco.MjSpec:
     kind, object_kind = mujoco.mjtSensor, mujoco.mjtObj
     root, trunk = robot.tree.bodies[0].name, trunk_body(spec, robot)[0].name
     # Data "found", no reduction, one slot: the sensor counts contacts with the floor.
-    found = [1, 0, 1]
+    count_contacts = [1, 0, 1]
     for name, measured, of, target, parameters in (
-        (Sensor.CONTACT, kind.mjSENS_CONTACT, object_kind.mjOBJ_GEOM, FLOOR, found),
+        (Sensor.CONTACT, kind.mjSENS_CONTACT, object_kind.mjOBJ_GEOM, FLOOR, count_contacts),
         (Sensor.COM, kind.mjSENS_SUBTREECOM, object_kind.mjOBJ_BODY, root, [0, 0, 0]),
         (Sensor.MOMENTUM, kind.mjSENS_SUBTREEANGMOM, object_kind.mjOBJ_BODY, root, [0, 0, 0]),
         (Sensor.TRUNK, kind.mjSENS_FRAMEPOS, object_kind.mjOBJ_XBODY, trunk, [0, 0, 0]),
@@ -98,7 +98,7 @@ def robot_scene(robot: Robot) -> mujoco.MjSpec:
 
 ANCHOR = "ocs_pivot"
 
-ANCHORED, _LITTLE = 1e7, 1e-10
+ANCHORED, _FREE_INERTIA = 1e7, 1e-10
 """Mass of an anchor, and its inertia about held axes, over the robot's, which set how little the
 pivot yields; its inertia about free axes."""
 
@@ -113,11 +113,11 @@ def _anchor(spec: mujoco.MjSpec, robot: Robot, maneuver: Pivoted) -> None:
     """
     trunk, base = trunk_body(spec, robot)
     mass = ANCHORED * robot.mass
-    frame, inertia = np.eye(3), np.full(3, _LITTLE * np.trace(robot.inertia))
+    frame, inertia = np.eye(3), np.full(3, _FREE_INERTIA * np.trace(robot.inertia))
     if maneuver.axis is not None:
         up = np.array([0.0, 0.0, 1.0])
         frame = np.column_stack([up, np.cross(maneuver.axis, up), maneuver.axis])
-        inertia[:2] *= ANCHORED / _LITTLE
+        inertia[:2] *= ANCHORED / _FREE_INERTIA
     trunk.add_body(
         name=ANCHOR,
         pos=base.point(maneuver.pivot),
@@ -151,8 +151,8 @@ def compile_scene(
     attach_device(spec, robot, device)
     if wheels is Wheels.ABSENT:
         # Massless, but still there: all worlds of a batch have the same sizes.
-        for each in device_bodies(device):
-            body = spec.body(each.name)
+        for device_body in device_bodies(device):
+            body = spec.body(device_body.name)
             body.mass, body.inertia = 1e-9, np.full(3, 1e-12)
     for name in flywheel_names(device):
         for geom in spec.body(name).geoms:
@@ -172,7 +172,7 @@ def compile_scene(
     return model
 
 
-def whole_mass(model: mujoco.MjModel, data: mujoco.MjData) -> MassProperties:
+def total_mass_properties(model: mujoco.MjModel, data: mujoco.MjData) -> MassProperties:
     """Robot and device, posed as in `data`, as one rigid body in the world, without an anchor."""
     names = (model.body(index).name for index in range(model.nbody))
     mass = np.array(
@@ -180,8 +180,8 @@ def whole_mass(model: mujoco.MjModel, data: mujoco.MjData) -> MassProperties:
     )
     com = mass @ data.xipos / mass.sum()
     axes, offset = data.ximat.reshape(-1, 3, 3), data.xipos - com
-    own = np.where(mass[:, None] > 0.0, model.body_inertia, 0.0)
-    turned = np.einsum("bij,bj,bkj->ik", axes, own, axes)
+    moments = np.where(mass[:, None] > 0.0, model.body_inertia, 0.0)
+    rotated = np.einsum("bij,bj,bkj->ik", axes, moments, axes)
     squares = np.einsum("b,bi,bi->", mass, offset, offset)
     outer = np.einsum("b,bi,bj->ij", mass, offset, offset)
-    return MassProperties(float(mass.sum()), com, turned + squares * np.eye(3) - outer)
+    return MassProperties(float(mass.sum()), com, rotated + squares * np.eye(3) - outer)

@@ -22,13 +22,13 @@ from ocs_design.simulation.world import World
 from ocs_design.sizing.trajectory.gyrostat import shared_by_others
 from ocs_design.sizing.trajectory.motion import Trajectory
 
-_EARLIEST = 0.5
+_EARLIEST_LIFT_OFF = 0.5
 """Share of the push-off before which lost ground contact does not count as lift-off."""
 
-SURE = 5e-3
+FLIGHT_CONFIRMATION = 5e-3
 """Time without ground contact after which a robot counts as in flight [s]."""
 
-SCRAPE = 30e-3
+SCRAPE_TIME = 30e-3
 """A foot that touches again within this time has not lifted off yet [s]: a hop as short rises by
 1 mm."""
 
@@ -44,9 +44,9 @@ class FlightClock:
 
     def __init__(self, worlds: Sequence[World], period: float) -> None:
         planned = np.array([0.0 if w.legs is None else w.legs.lift_off for w in worlds])
-        self._earliest = np.ceil(_EARLIEST * planned / period)
-        self._sure = max(1, round(SURE / period))
-        self._scrape = round(SCRAPE / period)
+        self._earliest = np.ceil(_EARLIEST_LIFT_OFF * planned / period)
+        self._sure = max(1, round(FLIGHT_CONFIRMATION / period))
+        self._scrape = round(SCRAPE_TIME / period)
         self._in_air = np.zeros(len(worlds), dtype=np.int64)
         standing = np.array([world.stands or 0.0 for world in worlds])
         settled = np.round(standing / period).astype(np.int64)
@@ -54,24 +54,24 @@ class FlightClock:
 
     def steps(self, k: int, running: int) -> NDArray[np.int64]:
         """Control steps since lift-off at instant `k`; negative for a world on the ground."""
-        left = self.lift_off[:running]
-        return np.where(left == NEVER, NEVER, k - left)
+        lift_off = self.lift_off[:running]
+        return np.where(lift_off == NEVER, NEVER, k - lift_off)
 
-    def look(self, k: int, touches: NDArray[np.bool_]) -> None:
+    def update(self, k: int, touches: NDArray[np.bool_]) -> None:
         """Note which worlds were in the air throughout control step `k`.
 
         Args:
             touches: whether anything touches the floor in each of its physics steps, (n, hold).
         """
-        left, in_air = self.lift_off[: len(touches)], self._in_air[: len(touches)]
+        lift_off, in_air = self.lift_off[: len(touches)], self._in_air[: len(touches)]
         free = (k >= self._earliest[: len(touches)]) & ~touches.any(axis=1)
         in_air[:] = np.where(free, in_air + 1, 0)
         pushes_off = self._earliest[: len(touches)] > 0.0
-        left[pushes_off & touches.any(axis=1) & (k - left < self._scrape)] = NEVER
-        flies = (left == NEVER) & (in_air == self._sure)
-        left[flies] = k + 1 - self._sure
+        lift_off[pushes_off & touches.any(axis=1) & (k - lift_off < self._scrape)] = NEVER
+        flies = (lift_off == NEVER) & (in_air == self._sure)
+        lift_off[flies] = k + 1 - self._sure
 
-    def bears(self, k: int, contact: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    def bears_weight(self, k: int, contact: NDArray[np.bool_]) -> NDArray[np.bool_]:
         """Which worlds touch the ground and are not pushing off, for which plans have torques."""
         n = len(contact)
         return np.asarray(contact & ((self.steps(k, n) >= 0) | (self._earliest[:n] == 0.0)))
@@ -102,7 +102,7 @@ class LegReferences:
             [np.pad(table, ((0, length - len(table)), (0, 0)), mode="edge") for table in tables]
         )
 
-    def write(self, k: int, control: FloatArray, bears: NDArray[np.bool_]) -> None:
+    def write(self, k: int, control: FloatArray, bears_weight: NDArray[np.bool_]) -> None:
         """Put the commands of control step `k` into `control`, shape (n, hold, nu and more).
 
         Args:
@@ -110,9 +110,11 @@ class LegReferences:
             bears: whether the legs of each must support its weight, shape (n,).
         """
         first = min(k * self._hold, self._last)
-        now = self._commands[self._row[: len(control)], first : first + self._hold]
-        control[:, :, : now.shape[2]] = now
-        control[:, :, : now.shape[2]] += (bears[:, None] * self._support[: len(now)])[:, None]
+        commands = self._commands[self._row[: len(control)], first : first + self._hold]
+        control[:, :, : commands.shape[2]] = commands
+        control[:, :, : commands.shape[2]] += (
+            bears_weight[:, None] * self._support[: len(commands)]
+        )[:, None]
 
 
 def _commands(world: World) -> FloatArray:
@@ -135,7 +137,7 @@ def _commands(world: World) -> FloatArray:
 
 _LEVEL = np.array([0.0, 0.0, 1.0])
 
-_ENDS_LEVEL = np.cos(LANDING_TOLERANCE)
+_LEVEL_COSINE = np.cos(LANDING_TOLERANCE)
 """Cosine of the tilt up to which a plan ends level: an axis that no wheel controls may drift."""
 
 
@@ -162,15 +164,16 @@ def track(trajectory: Trajectory, law: WheelLaw, times: FloatArray, period: floa
     until = np.clip(np.append(times, times[-1] + period), samples[0], samples[-1])
     before = np.clip(np.searchsorted(samples, until, side="right") - 1, 0, len(samples) - 2)
     steps = 0.5 * np.diff(samples)[:, None] * (values[1:] + values[:-1])
-    whole = np.vstack([np.zeros(values.shape[1]), np.cumsum(steps, axis=0)])
+    cumulative = np.vstack([np.zeros(values.shape[1]), np.cumsum(steps, axis=0)])
     part = 0.5 * (until - samples[before])[:, None]
-    integral = whole[before] + part * (values[before] + interpolated(until, samples, values))
-    given = np.diff(integral, axis=0) / period
+    integral = cumulative[before] + part * (values[before] + interpolated(until, samples, values))
+    mean_torque = np.diff(integral, axis=0) / period
 
-    held = trajectory.vertical[-1]
-    if trajectory.gains is None and held[2] >= _ENDS_LEVEL:
-        held = _LEVEL
-    ends, stands = np.where(flying, vertical, held), np.zeros(len(times), dtype=np.bool_)
+    final_vertical = trajectory.vertical[-1]
+    if trajectory.gains is None and final_vertical[2] >= _LEVEL_COSINE:
+        final_vertical = _LEVEL
+    verticals = np.where(flying, vertical, final_vertical)
+    stands = np.zeros(len(times), dtype=np.bool_)
     if trajectory.gains is not None and trajectory.attitude is not None:
         attitude = interpolated(times, trajectory.time, trajectory.attitude)
         gains = interpolated(times, trajectory.time, trajectory.gains.reshape(len(samples), -1))
@@ -178,15 +181,17 @@ def track(trajectory: Trajectory, law: WheelLaw, times: FloatArray, period: floa
             attitude / np.linalg.norm(attitude, axis=1, keepdims=True),
             rate,
             speed,
-            given,
+            mean_torque,
             gains.reshape(len(times), *trajectory.gains.shape[1:]),
             flying[:, 0],
         )
-        return Target(ends, rate, np.zeros_like(rate), np.zeros_like(given), stands, plan)
+        return Target(
+            verticals, rate, np.zeros_like(rate), np.zeros_like(mean_torque), stands, plan
+        )
     # The law adds the gyroscopic torque of the measured motion; that of the planned motion is
     # already in the planned torque.
     planned = law.gyroscopic(rate, speed) @ law.torque_map[0, :, 2:].T
-    return Target(ends, rate, np.zeros_like(rate), given - planned, stands)
+    return Target(verticals, rate, np.zeros_like(rate), mean_torque - planned, stands)
 
 
 Steps: TypeAlias = NDArray[np.int64]
@@ -244,9 +249,9 @@ class Pushes:
     def __init__(self, worlds: Sequence[World], times: FloatArray, period: float) -> None:
         self._pushed = np.zeros((len(times), len(worlds), 2, 3))
         for index, world in enumerate(worlds):
-            for given in world.pushes:
-                push = given
-                if given.force.any():
+            for specified in world.pushes:
+                push = specified
+                if specified.force.any():
                     # Centre of mass of everything that flies, at the start, in B.
                     model, data = world.model, mujoco.MjData(world.model)
                     data.qpos[:] = world.qpos
@@ -257,7 +262,7 @@ class Pushes:
                     origin = data.xpos[trunk] + to_body @ world.chain.origin
                     to_world = quaternions.matrix(world.chain.attitude(world.qpos))
                     com = (data.subtree_com[0] - origin) @ to_world
-                    push = given.of_force(float(model.body_mass.sum()), com)
+                    push = specified.of_force(float(model.body_mass.sum()), com)
                 share = push.share(times, period)[:, None, None]
                 self._pushed[:, index] += share * np.stack([push.torque, push.acceleration])
         acting = np.flatnonzero(self._pushed.any(axis=(1, 2, 3)))
@@ -278,22 +283,22 @@ class StoppedDrives:
     def __init__(self, worlds: Sequence[World], period: float) -> None:
         count, wheels = len(worlds), len(worlds[0].wheels)
         self._last = np.full(count, np.iinfo(np.int64).max)
-        self._known, self._runs = self._last.copy(), np.ones((count, wheels), dtype=np.bool_)
+        self._known, self._is_running = self._last.copy(), np.ones((count, wheels), dtype=np.bool_)
         self._shared = np.tile(np.eye(wheels), (count, 1, 1))
         for row, world in enumerate(worlds):
             if (stopped := world.stopped) is not None:
                 self._last[row] = round(stopped.instant / period)
                 self._known[row] = round((stopped.instant + stopped.detection) / period)
-                self._runs[row, stopped.wheel] = False
+                self._is_running[row, stopped.wheel] = False
                 self._shared[row] = shared_by_others(world.body.axes, stopped.wheel)
 
     def shared(self, steps: Steps) -> FloatArray:
         """Matrices from commands to torques of the running motors, see `Target`, (n, m, m)."""
         known = steps >= self._known[: len(steps)]
-        unshared = np.eye(self._runs.shape[1])
+        unshared = np.eye(self._is_running.shape[1])
         return np.where(known[:, None, None], self._shared[: len(steps)], unshared)
 
-    def left(self, steps: Steps, torque: FloatArray) -> FloatArray:
+    def without_stopped(self, steps: Steps, torque: FloatArray) -> FloatArray:
         """Torques with those of stopped motors set to zero, shape (n, m)."""
-        runs = self._runs[: len(steps)] | (steps < self._last[: len(steps)])[:, None]
+        runs = self._is_running[: len(steps)] | (steps < self._last[: len(steps)])[:, None]
         return np.where(runs, torque, 0.0)

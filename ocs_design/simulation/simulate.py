@@ -67,28 +67,28 @@ def simulate(
             Batch([worlds[index] for index in share], round(hold * STEP / step), pose_rate, engine)
             for share in shares
         ]
-        within = scaled(progress, done, done + part)
+        within = partial_progress(progress, done, done + part)
         # MuJoCo would write MUJOCO_LOG.TXT into the working directory; `Recording.stable` has it.
-        before = mujoco.get_mju_user_warning()
+        previous_handler = mujoco.get_mju_user_warning()
         mujoco.set_mju_user_warning(lambda _message: None)
         try:
-            recordings += _run_beside(batches, available // parts, within)
+            recordings += _run_in_parallel(batches, available // parts, within)
         finally:
-            mujoco.set_mju_user_warning(before)
+            mujoco.set_mju_user_warning(previous_handler)
         places += shares
         done += part
-    scaled(progress, 0.0, 1.0)(1.0)
+    partial_progress(progress, 0.0, 1.0)(1.0)
     return joined(recordings, places)
 
 
-def scaled(progress: Progress | None, begin: float, end: float) -> Progress:
+def partial_progress(progress: Progress | None, begin: float, end: float) -> Progress:
     """Progress of a part of the work that runs from share `begin` to share `end` of the whole."""
     if progress is None:
         return _ignore
     return lambda share: progress(begin + (end - begin) * share)
 
 
-def _run_beside(batches: Sequence[Batch], threads: int, progress: Progress) -> list[Recording]:
+def _run_in_parallel(batches: Sequence[Batch], threads: int, progress: Progress) -> list[Recording]:
     """Run the first batch here and report its progress; run each other one in a thread."""
     stop = Event()
     with ThreadPoolExecutor(max(len(batches) - 1, 1)) as others:

@@ -29,12 +29,17 @@ class RegulatedPlan(Table):
 
     def torque(self, attitude: FloatArray, rate: FloatArray, speed: FloatArray) -> FloatArray:
         """Planned torque minus the gains times the errors [N m], shape (n, m)."""
-        off = quaternions.product(quaternions.conjugate(self.attitude), attitude)
+        attitude_error = quaternions.product(quaternions.conjugate(self.attitude), attitude)
         error = np.concatenate(
-            [quaternions.rotation_vector(off), rate - self.rate, speed - self.wheel_speed], axis=1
+            [
+                quaternions.rotation_vector(attitude_error),
+                rate - self.rate,
+                speed - self.wheel_speed,
+            ],
+            axis=1,
         )
-        taken_off: FloatArray = np.einsum("nij,nj->ni", self.gains, error)
-        return self.wheel_torque - taken_off
+        correction: FloatArray = np.einsum("nij,nj->ni", self.gains, error)
+        return self.wheel_torque - correction
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,12 +71,12 @@ class Target(Table):
 
     def landed(self, contact: NDArray[np.bool_]) -> "Target":
         """Target with rest for worlds whose feet are on the ground, where plans end."""
-        left, plan = ~contact[:, None], self.plan
+        in_flight, plan = ~contact[:, None], self.plan
         return Target(
             self.vertical,
-            self.rate * left,
-            self.acceleration * left,
-            self.torque * left,
+            self.rate * in_flight,
+            self.acceleration * in_flight,
+            self.torque * in_flight,
             self.stands | contact,
             None if plan is None else replace(plan, holds=plan.holds & ~contact),
         )

@@ -28,7 +28,7 @@ are in the air a robot with a narrow stance topples, and must recover (A1 does n
 _UNLOADING = 3.0
 """A foot is unloaded after a ninth of its swing: `3 sin(pi s) = 1`."""
 
-TROTTED = 3.0
+TROT_TIME = 3.0
 """Time of trotting before the shove, over the time for which robots otherwise stand."""
 
 _QUADRANTS = 4
@@ -59,7 +59,7 @@ def waiting(
         return None, None
     if not maneuver.stride:
         return settling, None
-    duration = shoved_at(maneuver.stride, TROTTED * settling)
+    duration = shove_instant(maneuver.stride, TROT_TIME * settling)
     return duration, trot(robot, maneuver.stride, settling, duration + settling, weight)
 
 
@@ -70,7 +70,7 @@ def require_trot(maneuvers: Iterable[Maneuver], robot: Robot) -> None:
         SpecificationError: one of them needs a trot, and the robot cannot trot.
     """
     if any(maneuver.stride for maneuver in maneuvers):
-        _pairs(robot, leg_geometries(robot.tree, robot.trunk, robot.legs))
+        _diagonals(robot, leg_geometries(robot.tree, robot.trunk, robot.legs))
 
 
 def trot(
@@ -91,15 +91,18 @@ def trot(
     time = np.arange(0.0, duration + _SAMPLE, _SAMPLE)
     growth = np.clip(time / start, 0.0, 1.0)
     # Completed share of each foot's swing; 0 in stance.
-    phase = (time / stride + 0.5 * _pairs(robot, geometries)[:, None]) % 1.0
+    phase = (time / stride + 0.5 * _diagonals(robot, geometries)[:, None]) % 1.0
     swing = np.maximum(phase - DUTY, 0.0) / (1.0 - DUTY)
     share = 1.0 - growth * np.minimum(1.0, _UNLOADING * np.sin(np.pi * swing))
     force = weight * share / share.sum(axis=0)
     lift = height * growth * np.sin(np.pi * swing) ** 2
-    legs = [_lifting(each, robot, height, lift[i], force[i]) for i, each in enumerate(geometries)]
+    legs = [
+        _lift_leg(geometry, robot, height, lift[i], force[i])
+        for i, geometry in enumerate(geometries)
+    ]
     position = np.hstack([angles for angles, _ in legs])
     return LegTrajectory(
-        joints=tuple(name for each in geometries for name in each.chain.names),
+        joints=tuple(name for geometry in geometries for name in geometry.chain.names),
         time=time,
         position=position,
         velocity=np.gradient(position, _SAMPLE, axis=0),
@@ -108,19 +111,21 @@ def trot(
     )
 
 
-def shoved_at(stride: float, earliest: float) -> float:
+def shove_instant(stride: float, earliest: float) -> float:
     """First instant not before `earliest` at which the first pair of feet lifts [s]."""
     return float((np.ceil(earliest / stride - DUTY) + DUTY) * stride)
 
 
-def _pairs(robot: Robot, geometries: tuple[LegGeometry, ...]) -> FloatArray:
+def _diagonals(robot: Robot, geometries: tuple[LegGeometry, ...]) -> FloatArray:
     """Diagonal that each foot is on, 0 or 1, shape (feet,)."""
     obstacle = obstacle_to_jumping(robot)
-    postures = [np.array([robot.posture[n] for n in each.chain.names]) for each in geometries]
+    postures = [
+        np.array([robot.posture[n] for n in geometry.chain.names]) for geometry in geometries
+    ]
     feet = np.array(
         [
-            each.chain.pose(posture).point(each.leg.foot)
-            for each, posture in zip(geometries, postures, strict=True)
+            geometry.chain.pose(posture).point(geometry.leg.foot)
+            for geometry, posture in zip(geometries, postures, strict=True)
         ]
     ).reshape(-1, 3)
     quadrants = len(np.unique(np.sign(feet[:, :2]), axis=0))
@@ -133,22 +138,22 @@ def _pairs(robot: Robot, geometries: tuple[LegGeometry, ...]) -> FloatArray:
     return np.where(feet[:, 0] * feet[:, 1] > 0.0, 0.0, 1.0)
 
 
-def _lifting(
-    each: LegGeometry, robot: Robot, highest: float, lift: FloatArray, force: FloatArray
+def _lift_leg(
+    geometry: LegGeometry, robot: Robot, highest: float, lift: FloatArray, force: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
     """Joints of a leg [rad or m] and their torques at k instants, shape (k, n) each.
 
     The foot goes straight up from the nominal posture.
 
     Args:
-        each: the leg. highest: largest lift of its foot [m].
+        geometry: the leg. highest: largest lift of its foot [m].
         lift: of the foot [m], shape (k,). force: of the ground on it, upwards [N], shape (k,).
     """
-    chain, leg, heights = each.chain, each.leg, np.linspace(0.0, highest, _HEIGHTS)
+    chain, leg, heights = geometry.chain, geometry.leg, np.linspace(0.0, highest, _HEIGHTS)
     posture = np.array([robot.posture[name] for name in chain.names])
     positions = lifted(chain, leg.foot, leg.length, posture, heights)
     # Joint torques that balance 1 N on the foot.
     poses = [chain.pose(values) for values in positions]
-    bearing = [-chain.point_jacobian(pose, pose.point(leg.foot))[2] for pose in poses]
-    torques = interpolated(lift, heights, np.array(bearing)) * force[:, None]
+    torques_per_force = [-chain.point_jacobian(pose, pose.point(leg.foot))[2] for pose in poses]
+    torques = interpolated(lift, heights, np.array(torques_per_force)) * force[:, None]
     return interpolated(lift, heights, positions), torques

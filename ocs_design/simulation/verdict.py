@@ -102,12 +102,12 @@ def _landing_verdict(
     failure = _flight_failure(metrics, maneuver)
     if failure is not None:
         return failure
-    landing, final = f"{_ends(maneuver)} at {_tilt(metrics)}", _final_tilt(metrics)
+    landing, final = f"{_end_verb(maneuver)} at {_tilt(metrics)}", _final_tilt(metrics)
     if maneuver.heading_matters:
         landing += f", heading turned by {degrees_number(metrics.heading_drift)} deg"
         if any(landing_attitude(maneuver)[:2]):
-            off = degrees_number(off_at_touchdown(metrics, maneuver))
-            landing += f", its vertical {off} deg off what is asked"
+            error = degrees_number(attitude_error_at_touchdown(metrics, maneuver))
+            landing += f", its vertical {error} deg off what is asked"
     if not maneuver.gravity:
         return Verdict(True, landing)
     if not lands_on_legs(maneuver):
@@ -139,7 +139,7 @@ def _shove_verdict(metrics: Metrics, maneuver: Maneuver, can_stand: bool | None)
     elif not can_stand:
         unjudged = "the legs cannot keep the robot up even without the shove"
     # For a shove, touchdown is the instant at which it begins.
-    elif off_at_touchdown(metrics, maneuver) > LANDING_TOLERANCE:
+    elif attitude_error_at_touchdown(metrics, maneuver) > LANDING_TOLERANCE:
         unjudged = (
             f"the robot does not stand level by itself: it leans by {_tilt(metrics)} before the "
             "shove"
@@ -164,19 +164,21 @@ def _pivot_verdict(metrics: Metrics, maneuver: Pivoted) -> Verdict:
         f"is at {_tilt(metrics)} off balance after {maneuver.duration:.3g} s, turning at "
         f"{np.degrees(metrics.touchdown_rate):.1f} deg/s"
     )
-    off = max(
-        off_at_touchdown(metrics, maneuver), abs(metrics.final_roll), abs(metrics.final_pitch)
+    error = max(
+        attitude_error_at_touchdown(metrics, maneuver),
+        abs(metrics.final_roll),
+        abs(metrics.final_pitch),
     )
     at_rest = metrics.touchdown_rate <= REST_RATE
-    if off > LANDING_TOLERANCE or not at_rest or not metrics.upright_at_end:
-        falls = f"{is_at}, and ends at {_final_tilt(metrics)} off balance"
-        return Verdict(False, falls, Fault.BALANCE, stands=False)
+    if error > LANDING_TOLERANCE or not at_rest or not metrics.upright_at_end:
+        failure = f"{is_at}, and ends at {_final_tilt(metrics)} off balance"
+        return Verdict(False, failure, Fault.BALANCE, stands=False)
     spin = f"{metrics.final_wheel_speed * 30.0 / np.pi:.0f} rpm"
-    held = f"{is_at}, and stays up, with wheels at {spin} in the end"
-    return Verdict(True, held, stands=True)
+    outcome = f"{is_at}, and stays up, with wheels at {spin} in the end"
+    return Verdict(True, outcome, stands=True)
 
 
-def comes_down_well(metrics: Metrics | None, maneuver: Maneuver) -> bool:
+def lands_well(metrics: Metrics | None, maneuver: Maneuver) -> bool:
     """Whether a run passes in everything except standing."""
     if metrics is None or _unsound(metrics, maneuver):
         return False
@@ -229,13 +231,13 @@ def _flight_failure(metrics: Metrics, maneuver: Maneuver) -> Verdict | None:
     if heading is not None:
         turned = metrics.heading_drift
         if abs(remainder(turned - heading, tau)) > LANDING_TOLERANCE:
-            made = f"{degrees_number(turned)} of {degrees_number(heading)} deg"
-            failure = f"{_ends(maneuver)} with its heading turned by {made}"
+            turned_text = f"{degrees_number(turned)} of {degrees_number(heading)} deg"
+            failure = f"{_end_verb(maneuver)} with its heading turned by {turned_text}"
             return Verdict(False, failure, Fault.TURN)
     if failure := _landing_failure(metrics, maneuver):
         if maneuver.counts_turns and abs(remainder(angle, tau)) > LANDING_TOLERANCE:
-            asked = degrees_number(angle)
-            failure += f": a turn of {asked} deg does not end level, one of 360 deg does"
+            specified = degrees_number(angle)
+            failure += f": a turn of {specified} deg does not end level, one of 360 deg does"
         return Verdict(False, failure, Fault.LANDING)
     return None
 
@@ -255,25 +257,25 @@ def lands_on_legs(maneuver: Maneuver) -> bool:
     return bool(np.cos(roll) * np.cos(pitch) >= np.cos(UPRIGHT_TILT))
 
 
-def ends_anyhow(maneuver: Maneuver) -> bool:
+def ends_at_any_attitude(maneuver: Maneuver) -> bool:
     """Whether a maneuver may end at any attitude, such as a turn that only has to stop."""
     return maneuver.end == End.AT_REST
 
 
 def _landing_failure(metrics: Metrics, maneuver: Maneuver) -> str:
     """What is wrong with the attitude at touchdown; empty if it is level, or as specified."""
-    if ends_anyhow(maneuver):
+    if ends_at_any_attitude(maneuver):
         if metrics.touchdown_rate <= REST_RATE:
             return ""
         rate = np.degrees(metrics.touchdown_rate)
-        return f"{_ends(maneuver)} at {_tilt(metrics)}, turning at {rate:.0f} deg/s"
-    if off_at_touchdown(metrics, maneuver) <= LANDING_TOLERANCE:
+        return f"{_end_verb(maneuver)} at {_tilt(metrics)}, turning at {rate:.0f} deg/s"
+    if attitude_error_at_touchdown(metrics, maneuver) <= LANDING_TOLERANCE:
         return ""
     roll, pitch, _ = landing_attitude(maneuver)
     if roll == pitch == 0.0:
         allowed = np.degrees(LANDING_TOLERANCE)
         return f"touches down at {_tilt(metrics)}, more than {allowed:.0f} deg off level"
-    return f"{_ends(maneuver)} at {_tilt(metrics)}, not at {_angles(pitch, roll)}"
+    return f"{_end_verb(maneuver)} at {_tilt(metrics)}, not at {_angles(pitch, roll)}"
 
 
 def _vertical(roll: FloatArray, pitch: FloatArray) -> FloatArray:
@@ -281,39 +283,41 @@ def _vertical(roll: FloatArray, pitch: FloatArray) -> FloatArray:
     return np.array([-np.sin(pitch) * np.cos(roll), np.sin(roll), np.cos(pitch) * np.cos(roll)])
 
 
-def off_at_touchdown(metrics: Metrics, maneuver: Maneuver) -> float:
+def attitude_error_at_touchdown(metrics: Metrics, maneuver: Maneuver) -> float:
     """Attitude error at touchdown [rad]: larger of roll and pitch, or angle between the verticals.
 
     The verticals count unless a level landing is specified: a trunk on its side has no definite
     pitch.
     """
     ended = np.array([metrics.touchdown_roll]), np.array([metrics.touchdown_pitch])
-    return float(off_asked(*ended, maneuver)[0])
+    return float(attitude_errors(*ended, maneuver)[0])
 
 
-def off_asked(roll: FloatArray, pitch: FloatArray, maneuver: Maneuver) -> FloatArray:
+def attitude_errors(roll: FloatArray, pitch: FloatArray, maneuver: Maneuver) -> FloatArray:
     """Attitude errors at n touchdowns with this roll and pitch [rad], shape (n,)."""
-    asked_roll, asked_pitch, _ = landing_attitude(maneuver)
-    if asked_roll == asked_pitch == 0.0:
+    specified_roll, specified_pitch, _ = landing_attitude(maneuver)
+    if specified_roll == specified_pitch == 0.0:
         return np.maximum(np.abs(roll), np.abs(pitch))
-    cosine = _vertical(np.array(asked_roll), np.array(asked_pitch)) @ _vertical(roll, pitch)
+    cosine = _vertical(np.array(specified_roll), np.array(specified_pitch)) @ _vertical(roll, pitch)
     return np.asarray(np.arccos(np.clip(cosine, -1.0, 1.0)))
 
 
-def tilts_off(roll: FloatArray, pitch: FloatArray, maneuver: Maneuver) -> FloatArray:
+def tilt_errors(roll: FloatArray, pitch: FloatArray, maneuver: Maneuver) -> FloatArray:
     """Errors of roll and pitch at n touchdowns [rad], shape (2, n).
 
     They are about the trunk's own axes unless a level landing is specified: a pitch of -179 deg is
     1 deg off 180, and a trunk on its side has no definite pitch.
     """
-    asked_roll, asked_pitch, _ = landing_attitude(maneuver)
-    if asked_roll == asked_pitch == 0.0:
+    specified_roll, specified_pitch, _ = landing_attitude(maneuver)
+    if specified_roll == specified_pitch == 0.0:
         return np.array([roll, pitch])
-    asked = _vertical(np.full(roll.shape, asked_roll), np.full(pitch.shape, asked_pitch))
-    return -tilt_error(_vertical(roll, pitch).T, asked.T).T
+    specified = _vertical(
+        np.full(roll.shape, specified_roll), np.full(pitch.shape, specified_pitch)
+    )
+    return -tilt_error(_vertical(roll, pitch).T, specified.T).T
 
 
-def _ends(maneuver: Maneuver) -> str:
+def _end_verb(maneuver: Maneuver) -> str:
     return "touches down" if maneuver.gravity else "ends"
 
 

@@ -26,13 +26,13 @@ SINGLE_GATE = 1e-4
 """Largest relative momentum error of a flight in single precision that is judged at all: 0.04 deg
 in a whole turn."""
 
-_DENSE = 60
+_MOST_DENSE_DOFS = 60
 """Most degrees of freedom for which MuJoCo Warp supports a dense Jacobian."""
 
-_TOUCHES = 4
+_CONTACTS_PER_GEOM = 4
 """Most contacts of a geom with a plane."""
 
-_NO_MATTER = {"disableflags", "dof_length"}
+_IRRELEVANT_FIELDS = {"disableflags", "dof_length"}
 """Fields that may differ: a flag that is cleared for all, and a length used only for sleeping."""
 
 _PUSHED = mujoco.mjtState.mjSTATE_XFRC_APPLIED.value
@@ -100,7 +100,7 @@ class WarpPhysics:
             if self._model is None:
                 self._put(model)
             if self._data is None or self._data.nworld != len(model):
-                contacts, rows = room(self._first)
+                contacts, rows = buffer_sizes(self._first)
                 self._data = self._simulator.make_data(
                     self._first, nworld=len(model), nconmax=contacts, njmax=rows
                 )
@@ -131,12 +131,14 @@ class WarpPhysics:
         first = copy(models[0])
         # Warp never resets a state that is not finite, and does not know this flag.
         first.opt.disableflags &= ~int(mujoco.mjtDisableBit.mjDSBL_AUTORESET)
-        if first.nv > _DENSE:
+        if first.nv > _MOST_DENSE_DOFS:
             first.opt.jacobian = mujoco.mjtJacobian.mjJAC_AUTO
         try:
             put = self._simulator.put_model(first)
-            self._give_each_its_own(put, [first, *models[1:]])
-            self._give_each_its_own(put.opt, [first.opt, *(each.opt for each in models[1:])])
+            self._give_each_world_its_row(put, [first, *models[1:]])
+            self._give_each_world_its_row(
+                put.opt, [first.opt, *(model.opt for model in models[1:])]
+            )
         except (NotImplementedError, ValueError) as error:
             raise OcsError(
                 f"--engine warp: MuJoCo Warp cannot simulate these flights: {error}",
@@ -146,17 +148,19 @@ class WarpPhysics:
         put.opt.deterministic = int(self._simulator.DeterminismType.ALL)
         self._first, self._model = first, put
 
-    def _give_each_its_own(self, put: Any, sources: Sequence[Any]) -> None:  # noqa: ANN401 - optional
+    def _give_each_world_its_row(self, put: Any, sources: Sequence[Any]) -> None:  # noqa: ANN401 - optional
         """Replace every array of `put` in which sources differ by one with a row for each source.
 
         Raises:
             ValueError: sources differ in a field that all worlds share.
         """
         for field in fields(put):
-            values: list[Any] = [getattr(each, field.name, None) for each in sources]
-            if field.name in _NO_MATTER or not isinstance(values[0], np.ndarray | float | int):
+            values: list[Any] = [getattr(source, field.name, None) for source in sources]
+            if field.name in _IRRELEVANT_FIELDS or not isinstance(
+                values[0], np.ndarray | float | int
+            ):
                 continue
-            if all(np.array_equal(values[0], each) for each in values[1:]):
+            if all(np.array_equal(values[0], value) for value in values[1:]):
                 continue
             if getattr(field.type, "shape", (0,))[0] != "*":
                 raise ValueError(f"they differ in {field.name}, which all worlds share")
@@ -192,10 +196,10 @@ class WarpPhysics:
         sensed[:] = sensors.numpy().swapaxes(0, 1)
 
 
-def room(model: mujoco.MjModel) -> tuple[int, int]:
+def buffer_sizes(model: mujoco.MjModel) -> tuple[int, int]:
     """Most floor contacts of a scene, and most rows of its constraints."""
-    meets = (model.geom_contype | model.geom_conaffinity) != 0
-    contacts = _TOUCHES * int(np.count_nonzero(meets & (model.geom_bodyid > 0)))
+    collides = (model.geom_contype | model.geom_conaffinity) != 0
+    contacts = _CONTACTS_PER_GEOM * int(np.count_nonzero(collides & (model.geom_bodyid > 0)))
     # A friction pyramid has two edges for each of its directions.
     widest = max(1, 2 * (int(model.geom_condim.max()) - 1))
     others = model.nv + model.njnt + 6 * model.neq + 2 * model.ntendon

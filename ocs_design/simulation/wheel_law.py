@@ -89,7 +89,7 @@ class WheelLaw(Table):
             (-shared @ from_yaw)[None],
             np.array([gains.stiffness]),
             np.array([gains.damping]),
-            stacked_columns([limits.used]),
+            stacked_columns([limits.usable]),
             np.array([body.wheel_response]),
             np.array([gains.stiffness if balances else 0.0]),
             np.array([gains.damping]),
@@ -128,25 +128,27 @@ class WheelLaw(Table):
             attitude: quaternions (n, 4), needed if the target has a regulated plan.
         """
         error = tilt_error(vertical, target.vertical)
-        slip = target.rate - rate
+        rate_error = target.rate - rate
         stiffness = np.where(target.stands, self.standing_stiffness, self.stiffness)
         damping = np.where(target.stands, self.standing_damping, self.damping)
-        change = damping[:, None] * slip
-        wanted = stiffness[:, None] * error + change[:, :2] + target.acceleration[:, :2]
+        change = damping[:, None] * rate_error
+        acceleration = stiffness[:, None] * error + change[:, :2] + target.acceleration[:, :2]
         yaw = change[:, 2:] + target.acceleration[:, 2:]
         gyroscopic = self.gyroscopic(rate, wheel_speed)
         torque = np.einsum(
-            "nij,nj->ni", self.torque_map, np.concatenate([wanted, gyroscopic], axis=1)
+            "nij,nj->ni", self.torque_map, np.concatenate([acceleration, gyroscopic], axis=1)
         )
-        asked = torque + self.heading_map * yaw + target.torque
+        commanded = torque + self.heading_map * yaw + target.torque
         if target.plan is not None and attitude is not None:
             planned = target.plan.torque(attitude, rate, wheel_speed)
-            asked = np.where(target.plan.holds[:, None], planned, asked)
+            commanded = np.where(target.plan.holds[:, None], planned, commanded)
         if target.shared is not None:
-            asked = np.einsum("nij,nj->ni", target.shared, asked)
-        return self.possible(asked, wheel_speed, period)
+            commanded = np.einsum("nij,nj->ni", target.shared, commanded)
+        return self.feasible_torque(commanded, wheel_speed, period)
 
-    def possible(self, torque: FloatArray, wheel_speed: FloatArray, period: float) -> FloatArray:
+    def feasible_torque(
+        self, torque: FloatArray, wheel_speed: FloatArray, period: float
+    ) -> FloatArray:
         """Torques clipped to what motors and supply can give; shapes as in `torque`."""
         gain = (self.wheel_response * period)[:, None]
         cut = self.limits.clipped(torque, wheel_speed, gain)

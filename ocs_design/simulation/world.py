@@ -98,15 +98,15 @@ class TrunkChain:
 
     def rate(self, qpos: FloatArray, qvel: FloatArray) -> FloatArray:
         """Angular rate of the trunk in B [rad/s], shape (..., 3)."""
-        found: FloatArray = qvel[..., self.velocity + 3 : self.velocity + 6]
+        carried: FloatArray = qvel[..., self.velocity + 3 : self.velocity + 6]
         for link in self.links:
             hinge = quaternions.from_axis_angle(link.axis, qpos[..., link.position])
             step = quaternions.matrix(quaternions.product(link.fixed, hinge))
-            found = np.einsum("...ji,...j->...i", step, found)
-            found = found + link.axis * qvel[..., link.velocity, None]
+            carried = np.einsum("...ji,...j->...i", step, carried)
+            carried = carried + link.axis * qvel[..., link.velocity, None]
         if _is_identity(self.end):
-            return found
-        rate: FloatArray = np.einsum("ji,...j->...i", quaternions.matrix(self.end), found)
+            return carried
+        rate: FloatArray = np.einsum("ji,...j->...i", quaternions.matrix(self.end), carried)
         return rate
 
 

@@ -37,7 +37,7 @@ from ocs_design.simulation.scene import (
     Wheels,
     compile_scene,
     robot_scene,
-    whole_mass,
+    total_mass_properties,
 )
 from ocs_design.simulation.trotting import waiting
 from ocs_design.simulation.wheel_law import Allocation, Gains, WheelLaw
@@ -74,7 +74,7 @@ class Options:
     engine: Engine | None = None
 
     @classmethod
-    def under(cls, control: ControlRecord) -> "Options":
+    def of_record(cls, control: ControlRecord) -> "Options":
         """Options of flights under a recorded wheel law."""
         return cls(
             allocation=Allocation(control.projection),
@@ -126,10 +126,10 @@ class WorldBuilder:
         if legs is not None:
             # Only now, since the drives must be the same in every flight.
             model.opt.timestep = JUMP_STEP
-        whole, wheel = whole_mass(model, data), device.flywheel
-        body = Gyrostat(whole.inertia, device.axes, wheel.spin_inertia, device.motor.armature)
+        total, wheel = total_mass_properties(model, data), device.flywheel
+        body = Gyrostat(total.inertia, device.axes, wheel.spin_inertia, device.motor.armature)
         if pivoted is not None:
-            maneuver = pivoted = pivoted.on(whole)
+            maneuver = pivoted = pivoted.on(total)
             body = replace(body, inertia=pivoted.inertia, pull=pivoted.pull, edge=pivoted.axis)
         start = launch(maneuver, standing, self._options.drop_profile)
         if pivoted is not None and trajectory is None:
@@ -154,23 +154,23 @@ class WorldBuilder:
                 desaturation = Desaturation.of(
                     self._robot, max(standing, 0.0), body.spin_inertia, maneuver.gravity
                 )
-        changed = turn.note if trajectory is None else trajectory.note
+        turn_note = turn.note if trajectory is None else trajectory.note
 
         takes_off = bool(start.velocity.any())
         if legs is not None:
             # At rest on its feet: the legs produce the flight.
             start = replace(start, height=standing, velocity=np.zeros(3))
         place(self._robot, model, data, start, standing)
-        where = addresses(model, device)
+        address = addresses(model, device)
         if active:
-            data.qvel[list(where.wheels)] = start.wheel_speed
+            data.qvel[list(address.wheels)] = start.wheel_speed
         return World(
             model=model,
             qpos=data.qpos.copy(),
             qvel=data.qvel.copy(),
             ctrl=ctrl,
             support=support if trot is None else np.zeros(model.nu),
-            addresses=where,
+            addresses=address,
             wheels=tuple(module.name for module in device.modules),
             chain=TrunkChain.of(self._robot, model),
             body=body,
@@ -188,7 +188,7 @@ class WorldBuilder:
             flight_time=flight or settling,
             duration=duration,
             settles=None if pivoted is None else pivoted.duration,
-            note="; ".join(filter(None, (jump.note, changed))),
+            note="; ".join(filter(None, (jump.note, turn_note))),
             desaturation=desaturation,
         )
 
@@ -227,16 +227,16 @@ def wheel_gains(robot: Robot) -> Gains:
 def addresses(model: mujoco.MjModel, device: Device) -> Addresses:
     """Addresses by the names that the device has in the model."""
     joints = joint_names(device)
-    at = {sensor: int(model.sensor(sensor.value).adr[0]) for sensor in Sensor}
+    sensor_address = {sensor: int(model.sensor(sensor.value).adr[0]) for sensor in Sensor}
     return Addresses(
         wheels=tuple(int(model.joint(name).dofadr[0]) for name in joints),
         motors=tuple(model.actuator(name).id for name in joints),
         flywheels=tuple(model.body(name).id for name in flywheel_names(device)),
         trunk=int(model.sensor(Sensor.TRUNK.value).objid[0]),
-        contact=at[Sensor.CONTACT],
-        com=at[Sensor.COM],
-        momentum=at[Sensor.MOMENTUM],
-        height=at[Sensor.TRUNK] + 2,
+        contact=sensor_address[Sensor.CONTACT],
+        com=sensor_address[Sensor.COM],
+        momentum=sensor_address[Sensor.MOMENTUM],
+        height=sensor_address[Sensor.TRUNK] + 2,
     )
 
 

@@ -189,7 +189,7 @@ def _write_controller(name: str, where: Whereabouts, folder: Path) -> None:
     folder.mkdir()
     write_controller(
         name,
-        {each.name: flights.driven(each) for each in flights.maneuvers},
+        {each.name: flights.device_world(each) for each in flights.maneuvers},
         folder,
         joints=joint_names(flights.device),
         period=flights.control.period,

@@ -195,7 +195,7 @@ def read_flights(
         device=device,
         maneuvers=maneuvers,
         control=control,
-        options=Options.under(control),
+        options=Options.of_record(control),
         # A file replaces all distributions of the design.
         uncertainty=specified.reality
         if specified.reality.file is not None

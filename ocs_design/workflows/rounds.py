@@ -351,7 +351,7 @@ def prove(placed: Placed, specified: ValidationSection, steps: Steps) -> Proof:
         placed.robot,
         placed.designed.device,
         requirement.maneuvers,
-        Options.under(control),
+        Options.of_record(control),
         control=control,
         references=trajectories(references),
         jumps=jumps,

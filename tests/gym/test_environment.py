@@ -35,12 +35,12 @@ def flight(folder):
 
 def flown(env, choose, **options):
     """Rewards of an episode, what was seen, and the verdict."""
-    seen, told = env.reset(seed=1, options=options)
-    rewards, observed, ended = [], [seen], False
+    readings, told = env.reset(seed=1, options=options)
+    rewards, observed, ended = [], [readings], False
     while not ended:
-        seen, reward, ended, truncated, told = env.step(choose(seen, told))
+        readings, reward, ended, truncated, told = env.step(choose(readings, told))
         rewards.append(reward)
-        observed.append(seen)
+        observed.append(readings)
         assert not truncated
     return np.array(rewards), np.array(observed), told
 
@@ -98,24 +98,24 @@ def test_a_seed_draws_the_same_robot_and_another_one_another(flight):
 
 def test_idle_wheels_do_not_level_a_tilted_fall_and_the_law_does(flight):
     levelled, _, good = flown(flight, by_law, maneuver="drop", sample=0)
-    idle, seen, bad = flown(flight, lambda *_: np.zeros(2), maneuver="drop", sample=0)
+    idle, readings, bad = flown(flight, lambda *_: np.zeros(2), maneuver="drop", sample=0)
     assert (good["passed"], bad["passed"]) == (True, False)
     # 30 deg is a sixth of half a turn, and one for passing and one for coming down level.
     assert levelled.sum() == pytest.approx(2.0 + 30.0 / 180.0, abs=0.02)
     assert abs(idle.sum()) < 0.02
-    assert seen[0, -2] == 1.0
-    assert list(np.unique(seen[:, -1])) == [0.0, 1.0]
+    assert readings[0, -2] == 1.0
+    assert list(np.unique(readings[:, -1])) == [0.0, 1.0]
 
 
 def test_full_action_is_what_the_motor_can_give(flight):
     flight.reset(options={"maneuver": "drop", "sample": 0})
     motor = flight._flights.device.motor.at_the_air_gap
     for _ in range(40):
-        seen = flight._pilot.seen
-        limit = seen.highest
+        readings = flight._pilot.readings
+        limit = readings.highest
         assert (limit <= motor.torque_limit * (1.0 + 1e-12)).all()
         flight.step(np.ones(2))
-    speeds = flight._pilot.seen.wheel_speed
+    speeds = flight._pilot.readings.wheel_speed
     assert (speeds > 0.0).all()
     assert (speeds <= flight._top_speed).all()
 

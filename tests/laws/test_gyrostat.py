@@ -10,7 +10,7 @@ from wheels import EC45, PAPER_WHEEL, driven_device, geared, motor, paper_device
 
 from ocs_design.requirement.turns import Drop
 from ocs_design.robot.manual import robot_by_hand
-from ocs_design.simulation.motor_limits import USED, MotorLimits
+from ocs_design.simulation.motor_limits import USED_SHARE, MotorLimits
 from ocs_design.simulation.reference import Step
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.simulate import simulate
@@ -122,8 +122,8 @@ def test_a_saturated_motor_follows_its_voltage_line():
     recording = simulate([replace(world, law=law, turn=far)], hold=1)
     speed = -recording.wheel_speed[:, 0, 0]
     constant = 650.4 / 1.4566 / world.body.wheel_response
-    continuous = USED * 650.4 * (1.0 - np.exp(-recording.time / constant))
-    held = USED * 650.4 * (1.0 - (1.0 + 1e-3 / constant) ** -np.arange(len(speed)))
+    continuous = USED_SHARE * 650.4 * (1.0 - np.exp(-recording.time / constant))
+    held = USED_SHARE * 650.4 * (1.0 - (1.0 + 1e-3 / constant) ** -np.arange(len(speed)))
     np.testing.assert_allclose(speed, held, rtol=1e-5)
     np.testing.assert_allclose(speed, continuous, rtol=0, atol=0.01 * 650.4)
 

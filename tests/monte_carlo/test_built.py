@@ -12,7 +12,7 @@ from wheels import driven_device, layout_device, paper_device
 from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.requirement.uncertainty import Constant, UncertaintySection
 from ocs_design.simulation.imperfections import ImperfectDrives
-from ocs_design.simulation.motor_limits import USED, MotorLimits
+from ocs_design.simulation.motor_limits import USED_SHARE, MotorLimits
 from ocs_design.simulation.scene import Wheels, compile_scene, robot_scene
 from ocs_design.simulation.simulate import simulate
 from ocs_design.simulation.wheel_law import Allocation, Gains, WheelLaw
@@ -154,15 +154,15 @@ def test_friction_takes_its_part_of_the_torque_once(solo12):
         drives = ImperfectDrives(
             [robot.imperfections], response=response, instants=1, hold=5, step=1e-3
         )
-        _, real = drives.driven(0, robot.law.possible(asked, speed, 5e-3), speed)
-        return real[0, 0], law.possible(asked, speed, 5e-3)[0]
+        _, real = drives.applied_torque(0, robot.law.feasible_torque(asked, speed, 5e-3), speed)
+        return real[0, 0], law.feasible_torque(asked, speed, 5e-3)[0]
 
     real, nominal = given(np.array([[10.0, -20.0]]))
     np.testing.assert_allclose(np.abs(nominal), device.motor.torque_limit)
     np.testing.assert_allclose(real, nominal, rtol=1e-12)
     # On the line as well, but for the speed that friction takes within the control step.
     real, nominal = given(0.9 * rubbing.no_load_speed * np.array([[1.0, -1.0]]))
-    held = 1.0 - USED * limits.line_slope / (limits.line_slope + 5e-3 * response.item())
+    held = 1.0 - USED_SHARE * limits.line_slope / (limits.line_slope + 5e-3 * response.item())
     np.testing.assert_allclose(real, nominal - held * friction * np.sign(nominal), rtol=1e-9)
 
 

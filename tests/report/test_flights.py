@@ -26,7 +26,7 @@ from ocs_design.report.text.front import NO_DEVICE_MARK, OWN_VALUE_MARK, print_f
 from ocs_design.requirement.boundary import End
 from ocs_design.requirement.turns import Drop, Flip, TurnTo
 from ocs_design.robot.stance import LANDING_TOLERANCE
-from ocs_design.simulation.verdict import off_at_touchdown
+from ocs_design.simulation.verdict import attitude_error_at_touchdown
 
 LEVEL = {"roll_swing": 0.0, "final_roll": 0.0, "final_wheel_speed": 0.0}
 
@@ -143,7 +143,7 @@ def test_beside_a_landing_is_the_larger_angle_as_the_rule_of_level_has_it(roll, 
     metrics = SimpleNamespace(**landed)
     level = turn(yaw=np.pi / 2.0)
     for maneuver in (DROP, level):
-        passed = off_at_touchdown(metrics, maneuver) <= LANDING_TOLERANCE
+        passed = attitude_error_at_touchdown(metrics, maneuver) <= LANDING_TOLERANCE
         record = run(**LASTING, **landed, heading_drift=0.0, passed=passed)
         assert short_verdict(record, maneuver).text.removesuffix(", heading 0.0") == words
 

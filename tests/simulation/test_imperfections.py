@@ -57,7 +57,7 @@ def spun(imperfections, commands, start=0.0):
     drive = drives(imperfections, instants=len(commands))
     for k, command in enumerate(commands):
         speeds.append(speed[0, 0])
-        _, acting = drive.driven(k, np.full((1, 2), command), speed)
+        _, acting = drive.applied_torque(k, np.full((1, 2), command), speed)
         speed = speed + acting.sum(axis=1) * STEP / INERTIA
     return np.array(speeds)
 
@@ -84,7 +84,7 @@ def test_a_motor_must_overcome_friction_first():
 def test_air_drag_is_interpolated_in_its_table():
     air = AirDrag(np.array([0.0, 100.0, 300.0]), np.array([0.0, 1e-3, 5e-3]))
     with_air = replace(PERFECT, air=air, air_factor=2.0)
-    _, acting = drives(with_air).driven(0, np.zeros((1, 2)), np.array([[200.0, -100.0]]))
+    _, acting = drives(with_air).applied_torque(0, np.zeros((1, 2)), np.array([[200.0, -100.0]]))
     np.testing.assert_allclose(acting[0, 0], [-6e-3, 2e-3], rtol=1e-12)
 
 
@@ -95,7 +95,7 @@ def test_the_power_limit_holds_for_motors_that_deviate(speed):
     limits = replace(UNLIMITED, copper=copper * BOTH, power_max=np.array([limit]))
     with_supply = replace(PERFECT, torque_gain=1.09 * BOTH, limits=limits)
     speed, command = np.array([speed]), np.array([[0.06, -0.06]])
-    mean, acting = drives(with_supply).driven(0, command, speed)
+    mean, acting = drives(with_supply).applied_torque(0, command, speed)
 
     def power(torque):
         ends = speed, speed + torque * response
@@ -113,7 +113,7 @@ def test_a_command_takes_effect_after_its_delay(delay):
     commands = rng.normal(size=(40, 2))
     drive = drives(PERFECT, replace(PERFECT, delay=delay), instants=40)
     rows = [
-        drive.driven(k, np.stack([command, command]), np.zeros((2, 2)))[1]
+        drive.applied_torque(k, np.stack([command, command]), np.zeros((2, 2)))[1]
         for k, command in enumerate(commands)
     ]
     acting = np.concatenate(rows, axis=1)
@@ -131,10 +131,10 @@ def test_an_imperfect_motor_has_its_own_gain_and_limits():
         line_slope=np.array([50.0, 0.0]),
     )
     imperfect = replace(PERFECT, torque_gain=np.array([1.1, 0.9]), limits=limits)
-    mean, _ = drives(imperfect).driven(0, np.array([[0.3, 0.3]]), np.zeros((1, 2)))
+    mean, _ = drives(imperfect).applied_torque(0, np.array([[0.3, 0.3]]), np.zeros((1, 2)))
     np.testing.assert_allclose(mean, [[0.33, 0.2]], rtol=1e-12)
     # On the voltage line at 98 rad/s: the torque for the speed at the end of the step.
-    mean, _ = drives(imperfect).driven(0, np.array([[0.3, 0.0]]), np.array([[98.0, 0.0]]))
+    mean, _ = drives(imperfect).applied_torque(0, np.array([[0.3, 0.0]]), np.array([[98.0, 0.0]]))
     assert mean[0, 0] == pytest.approx(2.0 / (50.0 + HOLD * STEP / INERTIA), rel=1e-12)
 
 

@@ -176,14 +176,14 @@ def test_lift_off_takes_five_milliseconds_without_a_contact(world, period, conta
     """
     clock, planned = FlightClock([world], period), int(world.legs.lift_off / period)
     for k, contact in enumerate(contacts, start=planned):
-        clock.look(k, np.array([[contact == "1"]]))
+        clock.update(k, np.array([[contact == "1"]]))
     assert clock.lift_off[0] == planned + steps
     assert clock.steps(planned + steps + 2, 1)[0] == 2
 
 
 def test_feet_that_lift_early_in_the_push_off_are_no_lift_off(world):
     clock = FlightClock([world], 5e-3)
-    clock.look(3, np.zeros((1, 5), dtype=bool))
+    clock.update(3, np.zeros((1, 5), dtype=bool))
     assert clock.steps(4, 1)[0] < 0
 
 

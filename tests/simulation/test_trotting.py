@@ -14,7 +14,7 @@ from ocs_design.robot.reader import read_robot
 from ocs_design.simulation.scenario import Flights, run_scenarios
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.simulate import simulate
-from ocs_design.simulation.trotting import STEP_HEIGHT, require_trot, shoved_at, trot
+from ocs_design.simulation.trotting import STEP_HEIGHT, require_trot, shove_instant, trot
 
 STRIDE = 0.4
 WEIGHT = 27.0
@@ -84,7 +84,7 @@ def test_the_torques_carry_the_weight_on_the_standing_feet(feet_and_forces):
 
 @pytest.mark.parametrize("earliest", [0.0, 0.31, 3.0])
 def test_the_shove_starts_when_two_feet_lift(solo12, earliest):
-    instant = shoved_at(STRIDE, earliest)
+    instant = shove_instant(STRIDE, earliest)
     assert earliest <= instant < earliest + STRIDE
     references = trot(solo12, STRIDE, start=1e-3, duration=instant + 0.1, weight=WEIGHT)
     bent = np.abs(references.position - references.position[0]).max(axis=1)
@@ -98,7 +98,7 @@ def test_the_device_reduces_the_swing_of_a_trotting_robot(solo12, world):
     with_device, without = run_scenarios(Flights(solo12, paper_device(), [SHOVE]))
     assert [with_device.passed, without.passed] == [True, True]
     assert with_device.metrics.pitch_swing < 0.9 * without.metrics.pitch_swing
-    assert world.stands == shoved_at(STRIDE, 3.0)
+    assert world.stands == shove_instant(STRIDE, 3.0)
 
 
 def test_feet_leave_the_floor(solo12, world):

@@ -10,7 +10,7 @@ from wheels import driven_device
 from ocs_design.requirement.froude import standing_height
 from ocs_design.requirement.turns import Catch, TurnTo
 from ocs_design.simulation.scenario import Flights, run_scenarios
-from ocs_design.simulation.scene import Wheels, whole_mass
+from ocs_design.simulation.scene import Wheels, total_mass_properties
 from ocs_design.simulation.verdict import landing_attitude
 from ocs_design.simulation.world_builder import WorldBuilder
 from ocs_design.sizing.trajectory.plans import plan
@@ -92,7 +92,7 @@ def test_a_catch_starts_with_the_momentum_of_its_rate(solo12):
     data.qpos[:], data.qvel[:] = world.qpos, world.qvel
     mujoco.mj_forward(world.model, data)
     mujoco.mj_subtreeVel(world.model, data)
-    turning = whole_mass(world.model, data).inertia @ spun.rate
+    turning = total_mass_properties(world.model, data).inertia @ spun.rate
     wheels = world.body.spin_inertia * world.body.axes @ [100.0, 100.0]
     np.testing.assert_allclose(data.subtree_angmom[0], turning + wheels, rtol=1e-9)
     np.testing.assert_allclose(data.subtree_linvel[0, :2], 0.0, atol=1e-12)

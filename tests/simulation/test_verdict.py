@@ -6,7 +6,7 @@ from campaigns import zero_metrics
 
 from ocs_design.requirement.pushes import Shove
 from ocs_design.requirement.turns import Drop, Flip, TurnTo
-from ocs_design.simulation.verdict import comes_down_well, judge, landing_attitude, stands
+from ocs_design.simulation.verdict import judge, landing_attitude, lands_well, stands
 
 GOOD = zero_metrics(
     touchdown_time=0.39,
@@ -63,7 +63,7 @@ def test_pass_rule(metrics, maneuver, can_stand, passed, reason):
     assert verdict.passed is passed
     assert reason in verdict.reason
     without_legs = judge(metrics, maneuver, can_stand=None)
-    assert comes_down_well(metrics, maneuver) is (without_legs.passed is True)
+    assert lands_well(metrics, maneuver) is (without_legs.passed is True)
 
 
 def test_a_turn_to_an_attitude_reports_the_error_of_the_vertical():

@@ -20,7 +20,7 @@ from ocs_design.requirement.uncertainty import Normal, UncertaintySection
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.verdict import Fault
-from ocs_design.simulation.warp_engine import SINGLE_GATE, WarpPhysics, room, warp_engine
+from ocs_design.simulation.warp_engine import SINGLE_GATE, WarpPhysics, buffer_sizes, warp_engine
 from ocs_design.simulation.world import start_states
 from ocs_design.simulation.world_builder import WorldBuilder
 
@@ -156,7 +156,7 @@ def test_there_is_room_for_all_possible_contacts(campaign):
     data = mujoco.MjData(model)
     model.geom_margin[:] = 10.0
     mujoco.mj_forward(model, data)
-    contacts, rows = room(model)
+    contacts, rows = buffer_sizes(model)
     assert contacts / 4 <= data.ncon <= contacts
     assert data.nefc <= rows
 
