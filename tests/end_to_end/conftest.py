@@ -1,4 +1,4 @@
-"""The product of `size`, made once for all that open it."""
+"""The products of `size`, made once for all tests that open them."""
 
 import fcntl
 import json
@@ -25,19 +25,19 @@ from products import CASES, Product, device_of
 
 @pytest.fixture(scope="session", params=CASES)
 def product(request, tmp_path_factory, worker_id):
-    """A cold process, its streams piped; whichever worker comes first makes it for all."""
-    case, own = CASES[request.param], tmp_path_factory.getbasetemp()
-    shared = (own if worker_id == "master" else own.parent) / request.param.replace(" ", "-")
-    parent, said = shared / "cold", shared / "said.json"
+    """A product of a new process with piped streams, made once for all workers."""
+    case, base = CASES[request.param], tmp_path_factory.getbasetemp()
+    shared = (base if worker_id == "master" else base.parent) / request.param.replace(" ", "-")
+    parent, result_file = shared / "cold", shared / "result.json"
     parent.mkdir(parents=True, exist_ok=True)
     with (shared / "lock").open("w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
-        if not said.exists():
+        if not result_file.exists():
             result, peak = run_measured(
                 "size", SOLO12, *case.options, cwd=parent, env=environment(COLUMNS="80")
             )
-            said.write_text(json.dumps([asdict(result), peak]))
-    result, peak = json.loads(said.read_text())
+            result_file.write_text(json.dumps([asdict(result), peak]))
+    result, peak = json.loads(result_file.read_text())
     return Product(case, Result(**result), parent / "solo12-ocs", peak)
 
 
@@ -57,8 +57,8 @@ def exported(product):
 
 
 @pytest.fixture(scope="session", autouse=True)
-def one_process():
-    """Tests run on all processors already; commands in processes of their own use a second one."""
+def single_process():
+    """Keep commands to one process, since tests run on all processors already."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("ocs_design.common.workers.processors", lambda: 1)
         yield
@@ -74,17 +74,17 @@ def folder(tmp_path, monkeypatch):
 
 @pytest.fixture(scope="session")
 def by_hand(tmp_path_factory):
-    """The quickest design to fly: a trunk, two wheels and no legs, dropped once."""
+    """The design that is quickest to simulate: a trunk, two wheels and no legs, one drop."""
     folder = tmp_path_factory.mktemp("by_hand")
     (folder / "drop.toml").write_text(DROP)
-    typed = ("size", *BY_HAND, *BOUND, "--spec", folder / "drop.toml", "-q", "-o", folder / "ocs")
-    assert run(*typed).code == 0
+    command = ("size", *BY_HAND, *BOUND, "--spec", folder / "drop.toml", "-q", "-o", folder / "ocs")
+    assert run(*command).code == 0
     return folder / "ocs"
 
 
 @pytest.fixture(scope="session")
 def sized_solo12(tmp_path_factory):
-    """A copy of Solo12's file, and beside it what was sized for it."""
+    """A folder with a copy of Solo12's file and the design for it."""
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(tmp_path_factory.mktemp("sized"))
         patch.setitem(sys.modules, "xacro", None)
@@ -94,6 +94,6 @@ def sized_solo12(tmp_path_factory):
 
 @pytest.fixture
 def solo12(sized_solo12, folder):
-    """A design for a copy of Solo12 that tests may harm, in the working directory."""
+    """A design for a copy of Solo12 in the working folder, both free to be modified."""
     shutil.copytree(sized_solo12, folder, dirs_exist_ok=True)
     return Path("ocs")

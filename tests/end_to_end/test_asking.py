@@ -1,4 +1,4 @@
-"""The command line asks which links are trunk and legs, takes the answer, and draws what it saw."""
+"""Commands ask which links are trunk and legs, accept the answer, and draw what they recognised."""
 
 import xml.etree.ElementTree as ET
 from errno import ENOSPC
@@ -34,14 +34,14 @@ FEET = "pl_foot,pr_foot,cl_foot,cr_foot"
 
 
 @pytest.mark.parametrize("command", ["size", "pareto"])
-def test_a_command_that_designs_asks_and_writes_nothing(dog, tmp_path, command):
-    said = failure(3, command, dog, "-o", tmp_path / "out")
-    for words in ("trunk and legs are not clear", "--trunk chest", "--trunk pelvis"):
-        assert words in said
+def test_a_command_that_designs_asks_without_writing(dog, tmp_path, command):
+    message = failure(3, command, dog, "-o", tmp_path / "out")
+    for part in ("trunk and legs are not clear", "--trunk chest", "--trunk pelvis"):
+        assert part in message
     assert not (tmp_path / "out").exists()
 
 
-def test_inspect_does_not_ask_but_tells(dog):
+def test_inspect_reports_the_question_without_failing(dog):
     result = run("inspect", dog)
     assert result.code == 0
     assert f"--trunk chest --legs {FEET}" in result.stdout + result.stderr
@@ -53,7 +53,7 @@ def test_inspect_does_not_ask_but_tells(dog):
     }
 
 
-def test_the_answer_is_taken(dog):
+def test_the_answer_is_accepted(dog):
     document = run("inspect", dog, "--trunk", "pelvis", "--legs", FEET, "--json").document
     recognition = document["recognition"]
     assert document["robot"]["trunk"] == "pelvis"
@@ -79,10 +79,10 @@ def test_the_legs_of_a_specification(dog, tmp_path):
     assert [leg["foot"] for leg in recognition["legs"]] == FEET.split(",")
 
 
-def test_a_foot_that_is_not_there_is_named():
-    said = failure(3, "inspect", SOLO12, "--legs", "FL_FOOT,FR_TOE")
-    assert "no link 'FR_TOE'" in said
-    assert "FR_FOOT" in said
+def test_an_unknown_foot_is_refused_with_a_suggestion():
+    message = failure(3, "inspect", SOLO12, "--legs", "FL_FOOT,FR_TOE")
+    assert "no link 'FR_TOE'" in message
+    assert "FR_FOOT" in message
 
 
 def test_the_picture_names_feet_and_directions(tmp_path):
@@ -90,13 +90,13 @@ def test_the_picture_names_feet_and_directions(tmp_path):
     assert run("inspect", SOLO12, "--picture", path).code == 0
     words = [text.text for text in ET.parse(path).iter(f"{SVG}text")]
     feet = ("FL_FOOT", "FR_FOOT", "HL_FOOT", "HR_FOOT")
-    # From the right, the front and above.
+    # Views from the right, the front and above.
     assert [words.count(foot) for foot in feet] == [3, 3, 3, 3]
-    assert [words.count(way) for way in ("forward", "left", "up")] == [2, 2, 2]
+    assert [words.count(direction) for direction in ("forward", "left", "up")] == [2, 2, 2]
     circles = list(ET.parse(path).iter(f"{SVG}circle"))
-    right = {round(float(circle.get("cy")), 1) for circle in circles[:4]}
-    # All four feet on one ground, seen from the right; the front ones ahead of the hind ones.
-    assert len(right) == 1
+    ground = {round(float(circle.get("cy")), 1) for circle in circles[:4]}
+    # Seen from the right: all feet on one ground, the front ones ahead of the hind ones.
+    assert len(ground) == 1
     front, hind = (float(circles[i].get("cx")) for i in (0, 2))
     assert front > hind
 
@@ -110,7 +110,7 @@ def test_the_picture_as_png_is_the_svg_at_twice_the_size(tmp_path):
         assert len(image.convert("RGB").getcolors(1 << 20)) > 20
 
 
-def test_a_picture_that_cannot_be_written_whole_leaves_the_one_before(tmp_path, monkeypatch):
+def test_a_failed_picture_leaves_the_previous_one(tmp_path, monkeypatch):
     path = tmp_path / "solo12.svg"
     path.write_text("before")
 
@@ -121,17 +121,17 @@ def test_a_picture_that_cannot_be_written_whole_leaves_the_one_before(tmp_path, 
     result = run("inspect", SOLO12, "--picture", path)
     assert (result.code, path.read_text()) == (3, "before")
     assert "free some space" in result.output
-    assert [each.name for each in tmp_path.iterdir()] == [path.name]
+    assert [file.name for file in tmp_path.iterdir()] == [path.name]
 
 
 @pytest.mark.parametrize(
-    ("arguments", "code", "said"),
+    ("arguments", "code", "message"),
     [
         ((SOLO12, "--picture", "solo12.gif"), 2, "name a file *.svg or *.png"),
         ((SOLO12, "--picture", "nowhere/at/all.svg"), 3, "no such folder"),
         ((*BY_HAND, "--picture", "box.svg"), 2, "nothing to draw"),
     ],
 )
-def test_pictures_that_cannot_be(arguments, code, said, tmp_path, monkeypatch):
+def test_impossible_pictures_are_refused(arguments, code, message, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    assert said in failure(code, "inspect", *arguments)
+    assert message in failure(code, "inspect", *arguments)

@@ -1,4 +1,4 @@
-"""Bad input of every kind: the right exit code, words to act on, nothing left behind."""
+"""Bad input of every kind: the right exit code, a helpful message, no files left behind."""
 
 import re
 
@@ -8,29 +8,29 @@ from commands import BOUND, all_paths_in, environment, failure, run, run_process
 from urdf_text import inertial, link, robot
 
 
-@pytest.mark.parametrize(("files", "typed", "expected", "words"), CASES.values(), ids=CASES)
-def test_bad_input_is_explained(folder, files, typed, expected, words):
+@pytest.mark.parametrize(("files", "command", "expected", "words"), CASES.values(), ids=CASES)
+def test_bad_input_is_explained(folder, files, command, expected, words):
     for name, content in files.items():
         (folder / name).parent.mkdir(exist_ok=True)
         (folder / name).write_bytes(content)
     before = all_paths_in(folder)
-    said = run(*typed.split())
-    assert (said.code, said.stdout) == (expected[0], "")
+    result = run(*command.split())
+    assert (result.code, result.stdout) == (expected[0], "")
     for word in words.split("|"):
-        assert re.search(word, said.output), said.stderr
-    check_json(run(*typed.split(), "--json"), expected, words)
+        assert re.search(word, result.output), result.stderr
+    check_json(run(*command.split(), "--json"), expected, words)
     assert all_paths_in(folder) == before
 
 
 def check_json(result, expected, words):
-    """One document, which says what the panel says, and nothing beside it."""
+    """The output is one document with the contents of the panel, and nothing else."""
     assert (result.code, result.stderr) == (expected[0], "")
     assert set(result.document) == {"schema_version", "error"}
     error = result.document["error"]
     assert error["kind"] == expected[1]
-    everything = " ".join([error["message"], *error.get("problems", ()), error["hint"]])
+    text = " ".join([error["message"], *error.get("problems", ()), error["hint"]])
     for word in words.split("|"):
-        assert re.search(word, everything, re.DOTALL)
+        assert re.search(word, text, re.DOTALL)
 
 
 def test_a_xacro_that_cannot_be_expanded(tmp_path, monkeypatch):
@@ -56,7 +56,7 @@ SHAPED = robot(
     ],
     ids=["a mesh that is not there", "undeclared Latin-1"],
 )
-def test_what_is_only_odd_works_with_a_warning(folder, content, warning):
+def test_odd_but_usable_files_only_raise_a_warning(folder, content, warning):
     (folder / "rover.urdf").write_bytes(content)
     result = run("size", "rover.urdf", *BOUND, "--no-validate")
     assert result.code == 0
@@ -70,16 +70,19 @@ def test_what_is_only_odd_works_with_a_warning(folder, content, warning):
 
 
 @pytest.mark.parametrize(
-    "typed", [pytest.param("size rover.urdf --json", marks=pytest.mark.slow), "siez"]
+    "command", [pytest.param("size rover.urdf --json", marks=pytest.mark.slow), "siez"]
 )
-def test_a_process_of_its_own_says_the_same(folder, typed):
-    """All else here runs inside the tests' own process."""
-    own = run_process(*typed.split(), env=environment(COLUMNS="80"))
-    here = run(*typed.split())
-    assert (own.code, without_times(own.output)) == (here.code, without_times(here.output))
-    assert own.stdout == here.stdout
+def test_a_separate_process_gives_the_same_output(folder, command):
+    """All other commands here run within the process of the tests."""
+    separate = run_process(*command.split(), env=environment(COLUMNS="80"))
+    within = run(*command.split())
+    assert (separate.code, without_times(separate.output)) == (
+        within.code,
+        without_times(within.output),
+    )
+    assert separate.stdout == within.stdout
     assert all_paths_in(folder) == []
 
 
-def without_times(said):
-    return re.sub(r"[0-9.]+ s\b", "", said)
+def without_times(text):
+    return re.sub(r"[0-9.]+ s\b", "", text)

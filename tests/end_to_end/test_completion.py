@@ -1,4 +1,4 @@
-"""Shells complete commands, options and values, once asked for."""
+"""Shells complete commands, options and values."""
 
 import os
 import shutil
@@ -19,11 +19,11 @@ from ocs_design.requirement.vocabulary import CRITERIA, GUARDS
 from ocs_design.robot.manual import robot_by_hand
 
 
-def completed(words):
-    """What bash is offered for the last of `words`."""
+def completions(words):
+    """Words that bash is offered for the last of `words`."""
     place = {"COMP_WORDS": words, "COMP_CWORD": str(words.count(" "))}
-    asked = CliRunner().invoke(app, env={**place, "_OCS_DESIGN_COMPLETE": "complete_bash"})
-    return asked.stdout.split()
+    result = CliRunner().invoke(app, env={**place, "_OCS_DESIGN_COMPLETE": "complete_bash"})
+    return result.stdout.split()
 
 
 SWEEPS = ["time", "angle", "radius", "height", "voltage"]
@@ -52,29 +52,29 @@ SWEEPS = ["time", "angle", "radius", "height", "voltage"]
 )
 def test_bash_completes(words, offered, monkeypatch):
     monkeypatch.chdir(ROOT)
-    assert completed(words) == offered
+    assert completions(words) == offered
 
 
-def test_folders_lead_to_the_files_in_them(tmp_path, monkeypatch):
-    """A folder alone would be taken for the whole word."""
+def test_a_folder_is_completed_to_the_files_in_it(tmp_path, monkeypatch):
+    """Bash would take a folder alone for the complete word."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "robots" / "dog").mkdir(parents=True)
     for name in ("dog.urdf", "dog.xml.gz", "dog.txt"):
         (tmp_path / "robots" / "dog" / name).touch()
-    assert completed("ocs-design size ro") == ["robots/dog/dog.urdf", "robots/dog/dog.xml.gz"]
+    assert completions("ocs-design size ro") == ["robots/dog/dog.urdf", "robots/dog/dog.xml.gz"]
     (tmp_path / "robots" / "cat and mouse").mkdir()
-    # The shell quotes what it completes itself.
-    assert completed("ocs-design size robots/") == []
+    # Names with spaces are left to the shell, which quotes them.
+    assert completions("ocs-design size robots/") == []
 
 
-def test_words_offered_are_those_that_are_taken():
+def test_completed_words_are_accepted():
     solo12 = robot_by_hand(2.5, (0.032, 0.055, 0.07))
-    assert tuple(each.name for each in default_maneuvers(solo12)) == PAPERS
+    assert tuple(maneuver.name for maneuver in default_maneuvers(solo12)) == PAPERS
     for name in SWEEPS:
         sweep_of(name, "")
 
 
-def test_completing_loads_neither_solver_nor_simulator():
+def test_completion_imports_neither_solver_nor_simulator():
     names = "motors, gears, materials, formats"
     loaded = modules_loaded_by(
         f"from ocs_design.cli import app, completion as c; "
@@ -85,32 +85,32 @@ def test_completing_loads_neither_solver_nor_simulator():
 
 @pytest.mark.skipif(shutil.which("bash") is None, reason="there is no bash")
 def test_the_script_completes_in_bash(tmp_path):
-    """The function of the script that is installed, called as bash calls it."""
+    """The function of the installed script is called as bash does."""
     program = tmp_path / "ocs-design"
     program.write_text(f'#!/bin/sh\nexec {sys.executable} -m ocs_design "$@"\n')
     program.chmod(0o755)
     env = environment(_TYPER_COMPLETE_TEST_DISABLE_SHELL_DETECTION="1")
     script = run_process("--show-completion", "bash", env=env).stdout
-    asked = (
+    commands = (
         "COMP_WORDS=(ocs-design size --motor EC-90); COMP_CWORD=3; _ocs_design_completion "
         'ocs-design; printf "%s\\n" "${COMPREPLY[@]}"'
     )
     path = {**env, "PATH": f"{tmp_path}{os.pathsep}{os.environ['PATH']}"}
     path["PYTHONPATH"] = str(Path(__file__).parents[2])
-    done = subprocess.run(
-        ["bash", "--norc", "-c", f"{script}\n{asked}"],
+    process = subprocess.run(
+        ["bash", "--norc", "-c", f"{script}\n{commands}"],
         env=path,
         capture_output=True,
         text=True,
         check=True,
     )
-    assert done.stdout.split() == ["EC-90-flat-90-W-244879", "EC-90-flat-90-W-323772"]
+    assert process.stdout.split() == ["EC-90-flat-90-W-244879", "EC-90-flat-90-W-323772"]
 
 
 @pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
 def test_the_script_of_a_shell_is_printed(shell, monkeypatch):
-    # Typer otherwise looks at which shell called it.
+    # Otherwise Typer detects the calling shell.
     monkeypatch.setenv("_TYPER_COMPLETE_TEST_DISABLE_SHELL_DETECTION", "1")
-    done = CliRunner().invoke(app, ["--show-completion", shell])
-    assert done.exit_code == 0
-    assert f"_OCS_DESIGN_COMPLETE=complete_{shell}" in done.stdout
+    result = CliRunner().invoke(app, ["--show-completion", shell])
+    assert result.exit_code == 0
+    assert f"_OCS_DESIGN_COMPLETE=complete_{shell}" in result.stdout

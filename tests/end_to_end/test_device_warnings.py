@@ -1,4 +1,4 @@
-"""What is said of a device that is too heavy, fed beyond its rating, or cannot be built."""
+"""Warnings of a device that is too heavy, above its rated voltage, or not buildable."""
 
 import csv
 
@@ -7,15 +7,17 @@ from commands import SOLO12, all_paths_in, failure, run, writing_only
 
 from ocs_design.catalogue.motors import motors
 
-BULKY = ("size", "--mass", "1.2", "--inertia", "0.1,0.15,0.18", "--no-validate")
-"""As hard to turn as a robot of three times its mass."""
-ONE_KIND = ("--gear", "direct", "--material", "stainless-304")
+HARD_TO_TURN = ("size", "--mass", "1.2", "--inertia", "0.1,0.15,0.18", "--no-validate")
+"""A robot with the inertia of one of three times its mass."""
+ONE_MATERIAL = ("--gear", "direct", "--material", "stainless-304")
 
 
 @pytest.mark.slow
 @pytest.mark.usefixtures("no_alternatives", "no_files")
-def test_a_heavy_device_is_refused_where_warnings_are_errors(folder):
-    result = run(*BULKY, "--motor", "Antigravity MN5006 KV450", *ONE_KIND, "--strict", "--json")
+def test_strict_refuses_a_heavy_device(folder):
+    result = run(
+        *HARD_TO_TURN, "--motor", "Antigravity MN5006 KV450", *ONE_MATERIAL, "--strict", "--json"
+    )
     error = result.document["error"]
     assert (result.code, error["kind"]) == (3, "specification")
     assert "of the robot" in error["message"]
@@ -25,21 +27,21 @@ def test_a_heavy_device_is_refused_where_warnings_are_errors(folder):
 @pytest.mark.slow
 @pytest.mark.usefixtures("no_alternatives", "no_files")
 @pytest.mark.parametrize(
-    ("voltage", "remarked"),
+    ("voltage", "warned"),
     [("24V", True), pytest.param("16.8V", False, marks=pytest.mark.exhaustive)],
 )
-def test_a_motor_fed_beyond_its_rating_is_remarked(folder, voltage, remarked):
+def test_a_motor_above_its_rated_voltage_raises_a_warning(folder, voltage, warned):
     name = "AT2814 KV1050"
     assert motors()[name].rated_voltage == 16.8
-    given = ("--motor", name, "--bus-voltage", voltage, *ONE_KIND, "--no-validate")
-    asked = ("--layout", "pair", "--fall", "1m", "-o", "out")
-    result = run("size", "--mass", "1.2", "--inertia", "0.02,0.03,0.035", *given, *asked)
+    drive = ("--motor", name, "--bus-voltage", voltage, *ONE_MATERIAL, "--no-validate")
+    options = ("--layout", "pair", "--fall", "1m", "-o", "out")
+    result = run("size", "--mass", "1.2", "--inertia", "0.02,0.03,0.035", *drive, *options)
     assert result.code == 0, result.output
     words = f"{name} is rated for 16.8 V but runs at 24 V: ask the makers"
-    assert (words in result.output) is remarked
+    assert (words in result.output) is warned
 
 
-TOLD = (
+FILES = (
     *("cad/bill_of_materials.csv", "cad/drilling.pdf", "cad/assembly.pdf", "robot/README.md"),
     *("cad/wheel.pdf", "cad/wheel.svg"),
 )
@@ -48,12 +50,12 @@ TOLD = (
 @pytest.mark.slow
 @pytest.mark.usefixtures("no_alternatives")
 def test_files_of_a_device_that_cannot_be_built_say_so(folder):
-    """As `size` writes them, and `export` again."""
-    high = ("--position", "0,0.09,0.25", "--layout", "pair", "--fall", "2m", "--tilt", "10deg")
+    """Both the files of `size` and those of `export`."""
+    options = ("--position", "0,0.09,0.25", "--layout", "pair", "--fall", "2m", "--tilt", "10deg")
     drive = ("--motor", "MN5212 KV340", "--gear", "direct", "--material", "stainless-304")
     with writing_only("bom", "drawing", "assembly", "mjcf"):
-        said = failure(1, "size", SOLO12, *high, *drive, "--no-validate", "-o", "out")
-    assert "NOT buildable" in said
+        message = failure(1, "size", SOLO12, *options, *drive, "--no-validate", "-o", "out")
+    assert "NOT buildable" in message
     page = (folder / "out/robot/README.md").read_text()
     assert page.split("\n\n")[1].startswith(
         "**NOT buildable as it stands. The feet hang in the air"
@@ -64,5 +66,5 @@ def test_files_of_a_device_that_cannot_be_built_say_so(folder):
     assert sheet.count("NOT buildable as it stands") == 2
     again = run("export", "out", "--formats", "bom,drawing,assembly,mjcf", "-o", "again")
     assert again.code == 0, again.output
-    for name in TOLD:
+    for name in FILES:
         assert (folder / "again" / name).read_bytes() == (folder / "out" / name).read_bytes()

@@ -1,4 +1,4 @@
-"""Disks that are full or read-only, and runs that fail: what was there stays as it was."""
+"""Full or read-only disks and failed runs: existing files stay as they were."""
 
 import errno
 import os
@@ -14,14 +14,14 @@ from commands import BOUND, SOLO12, all_paths_in, failure, run
 
 @contextmanager
 def small_disk(folder, kib):
-    """A disk of that size at `folder`, where the system lets us mount one."""
+    """A disk of that size mounted at `folder`; skips the test where mounting is not allowed."""
     mount = shutil.which("mount")
-    made = mount and subprocess.run(
+    mounted = mount and subprocess.run(
         [mount, "-t", "tmpfs", "-o", f"size={kib}k", "none", str(folder)],
         capture_output=True,
         check=False,
     )
-    if not made or made.returncode:
+    if not mounted or mounted.returncode:
         pytest.skip("a disk of its own can be mounted by root only")
     try:
         yield lambda *options: subprocess.run([mount, *options, str(folder)], check=True)
@@ -56,7 +56,7 @@ def test_a_disk_that_fills_up_anywhere(folder, monkeypatch):
     assert all_paths_in(folder) == []
 
 
-def test_a_place_that_takes_nothing_is_said_before_the_search(folder):
+def test_an_unwritable_folder_is_reported_before_the_search(folder):
     if not Path("/proc/self").exists():
         pytest.skip("there is no such place")
     result = run("size", SOLO12, "-o", "/proc/x")
@@ -65,15 +65,15 @@ def test_a_place_that_takes_nothing_is_said_before_the_search(folder):
     assert "size the device" not in result.output
 
 
-def test_a_parent_that_is_read_only(folder):
+def test_a_read_only_parent_is_an_error(folder):
     parent = folder / "locked"
     parent.mkdir()
     if os.geteuid() == 0:
         with small_disk(parent, kib=64) as mount:
             mount("-o", "remount,ro")
-            said = failure(3, "size", SOLO12, *BOUND, "-o", "locked/out")
+            message = failure(3, "size", SOLO12, *BOUND, "-o", "locked/out")
     else:
         parent.chmod(0o555)
-        said = failure(3, "size", SOLO12, *BOUND, "-o", "locked/out")
-    assert re.search("cannot be written to: .* choose a folder .* with -o", said)
+        message = failure(3, "size", SOLO12, *BOUND, "-o", "locked/out")
+    assert re.search("cannot be written to: .* choose a folder .* with -o", message)
     assert all_paths_in(folder) == ["locked"]

@@ -1,4 +1,4 @@
-"""`export`: the same files again, from `design.json` and the robot's own file alone."""
+"""`export` writes the same files again from `design.json` and the robot's file."""
 
 import gzip
 import json
@@ -38,23 +38,23 @@ MESHED = """<robot name="r">
 </robot>"""
 
 
-def refused(code, words, *typed):
-    """What the refusal says; nothing is written."""
-    said = failure(code, "export", *typed, "-o", "again")
-    assert words in said
+def refused(code, part, *arguments):
+    """The message of a refused export, which writes nothing."""
+    message = failure(code, "export", *arguments, "-o", "again")
+    assert part in message
     assert not Path("again").exists()
-    return said
+    return message
 
 
 @pytest.mark.slow
-def test_every_file_is_what_size_wrote(product, folder):
+def test_every_file_is_that_of_size(product, folder):
     result = run("export", product.folder, "-o", "again")
     assert result.code == 0
-    again = files_in("again")
+    files = files_in("again")
     made = {name for name in product.case.files if name.startswith(EXPORT_FOLDERS)}
-    assert set(again) == {"design.json", *made}
+    assert set(files) == {"design.json", *made}
     assert exported_files("again") == exported_files(product.folder)
-    assert list(json.loads(again["design.json"])["files"]) == sorted(exported_files("again"))
+    assert list(json.loads(files["design.json"])["files"]) == sorted(exported_files("again"))
 
 
 def robot_by_hand():
@@ -72,7 +72,7 @@ def robot_gzipped():
 
 
 def robot_with_meshes_elsewhere():
-    """Their place is recorded, for it stands in no file of the robot's."""
+    """The design records the folder of the meshes, which the robot's file does not name."""
     (Path("hidden") / "p").mkdir(parents=True)
     trimesh.creation.box((0.1, 0.1, 0.1)).export("hidden/p/cube.stl")
     Path("r.urdf").write_text(MESHED)
@@ -84,14 +84,14 @@ def robot_with_meshes_elsewhere():
     "make",
     [robot_by_hand, robot_in_mjcf, robot_gzipped, robot_with_meshes_elsewhere],
 )
-def test_it_is_the_same_for_a(folder, make):
+def test_files_are_the_same_for_any_robot(folder, make):
     source = make()
     assert run("export", source, "-o", "again", "-q").code == 0
     assert exported_files("again") == exported_files(source)
 
 
 def test_the_robot_is_found_from_anywhere(solo12, folder, monkeypatch):
-    """Its path is relative to where `size` ran, which is beside the design's folder."""
+    """The path of the robot is relative to the folder in which `size` ran."""
     (folder / "elsewhere").mkdir()
     monkeypatch.chdir(folder / "elsewhere")
     assert run("export", folder / "ocs", "-o", "again", "-q").code == 0
@@ -100,16 +100,16 @@ def test_the_robot_is_found_from_anywhere(solo12, folder, monkeypatch):
 
 def test_parts_and_snippets_need_no_robot(solo12):
     Path("solo12.urdf").unlink()
-    said = refused(3, "solo12.urdf: the robot's file no longer exists", solo12)
-    cure = "--formats stl,bom,drawing,printed,assembly,snippets"
-    assert cure in said
-    assert run("export", solo12, "-o", "again", "-q", *cure.split()).code == 0
+    message = refused(3, "solo12.urdf: the robot's file no longer exists", solo12)
+    hint = "--formats stl,bom,drawing,printed,assembly,snippets"
+    assert hint in message
+    assert run("export", solo12, "-o", "again", "-q", *hint.split()).code == 0
     original, again = exported_files(solo12), exported_files("again")
     assert again == {name: original[name] for name in original if not name.startswith("robot")}
 
 
 @pytest.mark.slow
-def test_the_seat_of_a_robot_with_y_up_is_in_the_design(folder):
+def test_the_base_frame_of_a_robot_with_y_up_is_in_the_design(folder):
     shutil.copy(HUMAN, "h.urdf")
     source = size_to_bound("h.urdf")
     assert run("export", source, "-o", "whole", "-q").code == 0
@@ -120,7 +120,7 @@ def test_the_seat_of_a_robot_with_y_up_is_in_the_design(folder):
         assert content == exported_files(source)[name]
 
 
-def test_a_robot_that_has_moved_is_named(solo12):
+def test_a_moved_robot_is_given_by_an_option(solo12):
     Path("solo12.urdf").rename("moved.urdf")
     result = run("export", solo12, "-o", "again", "--robot", "moved.urdf", "--json")
     assert result.code == 0
@@ -129,14 +129,14 @@ def test_a_robot_that_has_moved_is_named(solo12):
 
 
 @pytest.mark.slow
-def test_a_robot_that_has_changed_is_refused_until_it_is_named(solo12):
+def test_a_changed_robot_is_refused_unless_given_by_an_option(solo12):
     changed = Path("solo12.urdf").read_text().replace("</robot>", "<!-- new -->\n</robot>")
     Path("solo12.urdf").write_text(changed)
-    said = refused(3, "has changed since the device was sized for it", solo12)
-    assert "--robot solo12.urdf" in said
-    named = (solo12, "--robot", "solo12.urdf")
-    refused(3, "not the file that the device was sized for", *named, "--strict")
-    result = run("export", *named, "-o", "again", "--json")
+    message = refused(3, "has changed since the device was sized for it", solo12)
+    assert "--robot solo12.urdf" in message
+    arguments = (solo12, "--robot", "solo12.urdf")
+    refused(3, "not the file that the device was sized for", *arguments, "--strict")
+    result = run("export", *arguments, "-o", "again", "--json")
     (warning,) = result.document["warnings"]
     assert warning.startswith(
         "solo12.urdf: not the file that the device was sized for; mass 2.5 kg"
@@ -150,7 +150,7 @@ def test_a_robot_without_the_designs_trunk_is_refused(solo12):
 
 
 @pytest.mark.slow
-def test_a_robot_from_standard_input_is_asked_for(folder):
+def test_a_robot_from_standard_input_has_to_be_given(folder):
     source = size_to_bound("-", stdin=Path(SOLO12).read_bytes())
     refused(3, "--robot FILE", source)
     assert run("export", source, "-o", "again", "-q", "--robot", SOLO12).code == 0
@@ -158,15 +158,17 @@ def test_a_robot_from_standard_input_is_asked_for(folder):
 
 
 @pytest.mark.slow
-def test_parts_and_snippets_need_neither_simulator_nor_solver(solo12):
-    """That is most of the time of a start."""
+def test_parts_and_snippets_import_neither_simulator_nor_solver(solo12):
+    """Importing them takes most of the time of a start."""
     code = (
         "import sys\nfrom ocs_design.cli import errors\nfrom ocs_design.cli.app import app\n"
         f"assert not errors.run(app, ['export', {str(solo12)!r}, '-q', '--formats', 'stl,bom'])"
         "\nprint(*{name.partition('.')[0] for name in sys.modules})"
     )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert {"mujoco", "cvxpy", "casadi", "trimesh", "scipy"}.isdisjoint(done.stdout.split())
+    process = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True
+    )
+    assert {"mujoco", "cvxpy", "casadi", "trimesh", "scipy"}.isdisjoint(process.stdout.split())
 
 
 def test_an_existing_folder_is_kept(solo12):
@@ -176,19 +178,19 @@ def test_an_existing_folder_is_kept(solo12):
 
 
 @pytest.mark.slow
-def test_in_the_designs_own_folder_the_rest_stays(product, folder):
+def test_export_into_the_folder_of_the_design_keeps_other_files(product, folder):
     shutil.copytree(product.folder, "ocs")
     Path("ocs/notes.txt").write_text("mine")
     Path("ocs/robot/solo12_ocs.glb").unlink()
     Path("ocs/cad/flywheel.stl").write_bytes(b"broken")
     assert run("export", "ocs", "-o", "ocs", "--force", "-q").code == 0
-    whole = files_in(product.folder)
+    original = files_in(product.folder)
     renewed = files_in("ocs")
     assert renewed.pop("notes.txt") == b"mine"
-    assert {**renewed, "design.json": whole["design.json"]} == whole
+    assert {**renewed, "design.json": original["design.json"]} == original
 
 
-def test_one_format_renewed_in_place_leaves_the_others(solo12):
+def test_export_of_one_format_in_place_keeps_the_others(solo12):
     before = files_in(solo12)
     (solo12 / "cad" / "flywheel.stl").unlink()
     assert run("export", solo12, "-o", solo12, "--force", "-q", "--formats", "stl").code == 0
@@ -204,22 +206,22 @@ def test_the_default_folder_is_named_after_the_robot(solo12):
 
 
 @pytest.mark.slow
-def test_meshes_that_the_urdf_names_by_relative_paths_are_told_of_once(folder):
+def test_relative_mesh_paths_raise_one_warning(folder):
     trimesh.creation.box((0.1, 0.1, 0.1)).export("cube.stl")
     Path("r.urdf").write_text(MESHED.replace("package://parts/", ""))
     source = size_to_bound("r.urdf", "--rate-change", "1rad/s")
     warnings = json.loads((source / "design.json").read_text())["robot"]["warnings"]
-    assert [w for w in warnings if "names 1 of its meshes relative" in w]
+    assert [warning for warning in warnings if "names 1 of its meshes relative" in warning]
     assert run("export", source, "-o", "again", "--json").document["warnings"] == []
 
 
-def test_a_robot_that_may_not_be_read_is_an_error(solo12, monkeypatch):
+def test_a_robot_without_read_permission_is_an_error(solo12, monkeypatch):
     denied = mock.Mock(side_effect=PermissionError(13, "Permission denied"))
     monkeypatch.setattr("ocs_design.robot.source._read_bounded", denied)
     refused(3, "cannot be read", solo12)
 
 
-def test_the_json_document_names_what_was_made(solo12):
+def test_the_json_document_lists_the_files(solo12):
     result = run("export", solo12, "-o", "again", "--json")
     assert (result.code, result.stderr) == (0, "")
     assert set(result.document) == {"schema_version", "folder", "files", "warnings", "notes"}
@@ -231,7 +233,7 @@ NO_DESIGN = (*NO_DESIGN, b'{"schema_version": 99}', b'{"schema_version": 1}')
 
 
 @pytest.mark.parametrize("content", NO_DESIGN)
-def test_what_is_no_design_is_an_error_with_nothing_written(folder, content):
+def test_other_files_are_refused_as_a_design(folder, content):
     if content is not None:
         Path("design.json").write_bytes(content)
     result = run("export", "design.json", "-o", "again", "--json")
@@ -262,10 +264,10 @@ def test_the_folder_can_be_moved(solo12, folder):
     assert (moved / "robot" / "meshes" / "ocs_flywheel.stl").is_file()
 
 
-@pytest.mark.parametrize("each", USUAL_FORMATS, ids=lambda each: each.name)
-def test_one_format_alone(solo12, each):
+@pytest.mark.parametrize("file_format", USUAL_FORMATS, ids=lambda file_format: file_format.name)
+def test_one_format_alone(solo12, file_format):
     source = solo12 / "design.json"
-    assert run("export", source, "-o", "again", "-q", "--formats", each.name).code == 0
+    assert run("export", source, "-o", "again", "-q", "--formats", file_format.name).code == 0
     again = exported_files("again")
     assert again
     assert again.items() <= exported_files(solo12).items()
@@ -273,17 +275,17 @@ def test_one_format_alone(solo12, each):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("product", ["motor"], indirect=True)
-def test_what_is_written_on_request_alone(product, folder):
-    """For the printer and for CAD."""
-    asked = ("--formats", "3mf,step,printed")
-    result = run("export", product.folder, "-o", "again", *asked)
+def test_formats_that_are_written_on_request_alone(product, folder):
+    """3MF and STL for the printer, STEP for CAD."""
+    options = ("--formats", "3mf,step,printed")
+    result = run("export", product.folder, "-o", "again", *options)
     assert result.code == 0, result.output
-    again = files_in("again")
+    files = files_in("again")
     printed = [f"housing_{part}" for part in ("drum", "lid", "foot", "cage")]
     named = [f"{part}.stl" for part in printed]
     named += [f"{part}.step" for part in (*printed, "flywheel", "plate", "module", "device")]
     named += ["flywheel.3mf", "housing.3mf"]
-    assert set(again) == {"design.json", *(f"cad/{name}" for name in named)}
+    assert set(files) == {"design.json", *(f"cad/{name}" for name in named)}
 
 
 @pytest.mark.parametrize("name", ["step", "dxf"])
@@ -294,9 +296,9 @@ def test_a_format_without_its_extra_is_a_missing_tool(solo12, monkeypatch, name)
 
 @pytest.mark.parametrize("name", ["step", "dxf"])
 def test_a_library_that_does_not_load_is_a_missing_tool(solo12, monkeypatch, name):
-    """As where a shared library that it needs is not on the system."""
-    (each,) = (each for each in FORMATS if each.name == name)
-    monkeypatch.setitem(sys.modules, f"ocs_design.export.{each.module}", None)
+    """For example where a shared library is missing on the system."""
+    (file_format,) = (file_format for file_format in FORMATS if file_format.name == name)
+    monkeypatch.setitem(sys.modules, f"ocs_design.export.{file_format.module}", None)
     refused(5, "cannot be loaded", solo12, "--formats", name)
 
 
@@ -306,7 +308,7 @@ def test_dxf_of_each_piece(solo12):
     assert set(files_in("one")) == {"design.json", *pieces}
 
 
-def test_formats_are_listed_with_commas_or_one_by_one_in_any_capitals(solo12):
+def test_formats_are_separated_by_commas_or_repeated_in_any_case(solo12):
     run("export", solo12, "-o", "a", "-q", "--formats", "stl,bom")
     run("export", solo12, "-o", "b", "-q", "--formats", "BOM", "--formats", "Stl")
     assert files_in("a") == files_in("b")
@@ -319,5 +321,5 @@ def test_an_unknown_format_is_wrong_usage(solo12):
     result = run("export", solo12, "-o", "again", "--formats", "stl,dwg", "--json")
     assert result.code == 2
     assert "dwg" in result.document["error"]["message"]
-    known = {*(each.name for each in FORMATS), *ON_DESIGN}
+    known = {*(file_format.name for file_format in FORMATS), *ON_DESIGN}
     assert all(name in result.document["error"]["hint"] for name in known)

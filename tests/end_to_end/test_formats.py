@@ -1,4 +1,4 @@
-"""One robot in every format, and in other postures: the same design wherever it comes from."""
+"""One robot in every format and in other postures: the design is the same for every source."""
 
 import gzip
 import json
@@ -13,11 +13,11 @@ from mass_oracles import pinocchio_mass_properties
 from pinocchio_robots import configuration, free_model
 from products import equal_rate
 
-# Stated, so that nothing hangs on what only one of the formats knows.
+# Given explicitly, so that the design does not depend on data that only one format has.
 ROOM = ("--r-max", "50mm", "--r-min", "5mm", "--h-max", "10mm", "--h-min", "2mm")
 ROOM = (*ROOM, "--wall-min", "2mm", "--wheel-mass-max", "250g")
 FEET = ("--legs", "FL_FOOT,FR_FOOT,HL_FOOT,HR_FOOT")
-NO_MANEUVERS = "[requirement]\nmaneuvers = 'none'\nrate_change = '6.3 rad/s'\n"
+RATE_ALONE = "[requirement]\nmaneuvers = 'none'\nrate_change = '6.3 rad/s'\n"
 
 
 @pytest.fixture(scope="module")
@@ -41,7 +41,7 @@ def quaternion(rotation):
 
 
 def geom(shape, *, visual):
-    """MJCF's sizes are half lengths."""
+    """A geom of MJCF, whose sizes are half lengths."""
     place, form = shape.placement, shape.geometry
     kind = type(form).__name__.lower()
     size = {
@@ -57,18 +57,20 @@ def geom(shape, *, visual):
 
 
 def body(solo12, index):
-    """A moving body and all that hangs on it, from Pinocchio's numbers alone."""
+    """A moving body of MJCF and all bodies below it, from Pinocchio's numbers alone."""
     model = solo12.model
     place, inertia = model.jointPlacements[index], model.inertias[index]
-    own = inertia.inertia
+    tensor = inertia.inertia
     name = next(f.name for f in model.frames if f.parentJoint == index and f.type == pin.BODY)
     if index == 1:
         joint = "<freejoint/>"
     else:
         axis = {"JointModelRX": "1 0 0", "JointModelRY": "0 1 0"}[model.joints[index].shortname()]
-        first = model.joints[index].idx_q
-        span = numbers([model.lowerPositionLimit[first], model.upperPositionLimit[first]])
-        joint = f'<joint name="{model.names[index]}" axis="{axis}" range="{span}"/>'
+        coordinate = model.joints[index].idx_q
+        joint_range = numbers(
+            [model.lowerPositionLimit[coordinate], model.upperPositionLimit[coordinate]]
+        )
+        joint = f'<joint name="{model.names[index]}" axis="{axis}" range="{joint_range}"/>'
     geoms = [
         geom(shape, visual=kind is pin.GeometryType.VISUAL)
         for kind, shapes in solo12.shapes.items()
@@ -78,18 +80,18 @@ def body(solo12, index):
     children = [
         body(solo12, child) for child in range(2, model.njoints) if model.parents[child] == index
     ]
-    full = [own[0, 0], own[1, 1], own[2, 2], own[0, 1], own[0, 2], own[1, 2]]
+    entries = [tensor[0, 0], tensor[1, 1], tensor[2, 2], tensor[0, 1], tensor[0, 2], tensor[1, 2]]
     return (
         f'<body name="{name}" pos="{numbers(place.translation)}" '
         f'quat="{quaternion(place.rotation)}">{joint}'
         f'<inertial pos="{numbers(inertia.lever)}" mass="{inertia.mass!r}" '
-        f'fullinertia="{numbers(full)}"/>{"".join(geoms)}{"".join(children)}</body>'
+        f'fullinertia="{numbers(entries)}"/>{"".join(geoms)}{"".join(children)}</body>'
     )
 
 
 @pytest.fixture(scope="module")
 def mjcf(solo12):
-    """The example as MJCF, by nobody's exporter."""
+    """The example as MJCF, written without an exporter."""
     posed = numbers([0.0, 0.0, 0.3, 1.0, 0.0, 0.0, 0.0, *(0.1, 0.6, -1.1) * 4])
     return (
         '<mujoco model="solo12"><compiler angle="radian"/>'
@@ -99,20 +101,20 @@ def mjcf(solo12):
 
 
 def design(*arguments, motor="none", stdin=b""):
-    """What `size` finds for it, without flights."""
+    """The document of `size` without flights."""
     result = run("size", *arguments, "--motor", motor, "--no-validate", "--json", stdin=stdin)
     assert result.code == 0, result.stdout
     return json.loads(result.stdout)
 
 
-def check_same(found, expected):
+def check_same(document, expected):
     """Rim, incidence, inertia and position, to one part in a million."""
     for key in ("inner_radius", "outer_radius", "height", "mass", "spin_inertia"):
         value = expected["ocs"]["flywheel"][key]
-        assert found["ocs"]["flywheel"][key] == pytest.approx(value, rel=1e-6), key
-    assert found["ocs"]["incidence"] == pytest.approx(expected["ocs"]["incidence"], rel=1e-6)
+        assert document["ocs"]["flywheel"][key] == pytest.approx(value, rel=1e-6), key
+    assert document["ocs"]["incidence"] == pytest.approx(expected["ocs"]["incidence"], rel=1e-6)
     np.testing.assert_allclose(
-        found["ocs"]["total_inertia"], expected["ocs"]["total_inertia"], rtol=1e-6, atol=1e-9
+        document["ocs"]["total_inertia"], expected["ocs"]["total_inertia"], rtol=1e-6, atol=1e-9
     )
 
 
@@ -125,26 +127,26 @@ def test_every_format_gives_the_same_design(folder, no_files, mjcf, motor):
     (folder / "b.xml.gz").write_bytes(gzip.compress(mjcf.encode()))
     expected = design(SOLO12, "-o", "urdf", motor=motor)
     assert expected["robot"]["posture_name"] == "stand"
-    found = {
+    documents = {
         "gzip": design("a.urdf.gz", "-o", "gzip", motor=motor),
         "standard input": design("-", "-o", "stdin", stdin=text, motor=motor),
         "MJCF": design("robot", "-o", "mjcf", motor=motor),
         "MJCF, gzip": design("b.xml.gz", "-o", "mjcf-gzip", motor=motor),
         "MJCF, standard input": design("-", "-o", "mjcf-stdin", stdin=mjcf.encode(), motor=motor),
     }
-    for name, each in found.items():
-        check_same(each, expected)
-        assert each["robot"]["standing_height"] == pytest.approx(0.272, rel=1e-6), name
-        positions = [np.array(d["ocs"]["modules"][0]["position"]) for d in (each, expected)]
+    for name, document in documents.items():
+        check_same(document, expected)
+        assert document["robot"]["standing_height"] == pytest.approx(0.272, rel=1e-6), name
+        positions = [np.array(d["ocs"]["modules"][0]["position"]) for d in (document, expected)]
         np.testing.assert_allclose(*positions, rtol=0.0, atol=1e-8)
-        assert each["robot"]["name"] == "solo12"
-    assert found["standard input"]["robot"]["source"] == "-"
+        assert document["robot"]["name"] == "solo12"
+    assert documents["standard input"]["robot"]["source"] == "-"
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("motor", ["none", pytest.param("auto", marks=pytest.mark.exhaustive)])
 def test_the_exported_robot_can_be_read_again(folder, motor):
-    """It is a robot like any other, only its device's names are taken."""
+    """It can be read as any robot, but not sized again: the names of the device are in use."""
     design(SOLO12, "-o", "first", motor=motor)
     for name in ("solo12_ocs.urdf", "solo12_ocs.xml"):
         result = run("inspect", folder / "first" / "robot" / name, "--json")
@@ -157,45 +159,45 @@ def test_the_exported_robot_can_be_read_again(folder, motor):
 
 
 def test_by_hand_the_same_inertia_gives_the_same_design(folder, no_files):
-    """Without legs there is no standing height to scale maneuvers and room by: both are stated.
+    """Without legs there is no standing height to scale with: maneuvers and limits are given.
 
-    By hand the base frame lies in the centre of mass, so that the same place has other coordinates.
+    The origin of a robot by hand is its centre of mass, so that the position has other coordinates.
     """
-    (folder / "s.toml").write_text(NO_MANEUVERS)
+    (folder / "s.toml").write_text(RATE_ALONE)
     place = np.array([0.0, 0.055, 0.079])
-    told = ("--spec", "s.toml", *ROOM)
-    expected = design(SOLO12, *told, "--position", ",".join(map(str, place)), "-o", "file")
+    options = ("--spec", "s.toml", *ROOM)
+    expected = design(SOLO12, *options, "--position", ",".join(map(str, place)), "-o", "file")
     robot = expected["robot"]
     inertia = np.array(robot["inertia"])
-    six = [inertia[index] for index in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))]
+    entries = [inertia[index] for index in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))]
     by_hand = (
         "--mass",
         repr(robot["mass"]),
         "--inertia",
-        ",".join(repr(float(value)) for value in six),
+        ",".join(repr(float(value)) for value in entries),
         "--position",
         ",".join(repr(float(value)) for value in place - robot["com"]),
     )
-    found = design(*by_hand, *told, "-o", "hand")
-    check_same(found, expected)
-    assert found["robot"]["source"] == "by hand"
-    assert (found["robot"]["legs"], found["robot"]["standing_height"]) == ([], None)
-    assert found["requirement"]["maneuvers"] == expected["requirement"]["maneuvers"] == []
+    document = design(*by_hand, *options, "-o", "hand")
+    check_same(document, expected)
+    assert document["robot"]["source"] == "by hand"
+    assert (document["robot"]["legs"], document["robot"]["standing_height"]) == ([], None)
+    assert document["requirement"]["maneuvers"] == expected["requirement"]["maneuvers"] == []
 
 
 def check_inertia(document, solo12, joints, link="base_link"):
-    held = pinocchio_mass_properties(solo12.model, configuration(solo12.model, joints), link)
+    expected = pinocchio_mass_properties(solo12.model, configuration(solo12.model, joints), link)
     robot = document["robot"]
-    np.testing.assert_allclose(robot["com"], held.com, rtol=0.0, atol=1e-12)
-    np.testing.assert_allclose(robot["inertia"], held.inertia, rtol=1e-9, atol=1e-13)
+    np.testing.assert_allclose(robot["com"], expected.com, rtol=0.0, atol=1e-12)
+    np.testing.assert_allclose(robot["inertia"], expected.inertia, rtol=1e-9, atol=1e-13)
     assert robot["trunk"] == link
     ocs = document["ocs"]
     alone = ocs["incidence_by_criterion_robot_alone"]["equal-rate"]
-    assert alone == pytest.approx(equal_rate(held.inertia), abs=1e-9)
+    assert alone == pytest.approx(equal_rate(expected.inertia), abs=1e-9)
 
 
 @pytest.mark.slow
-def test_postures_are_what_is_asked_for(folder, no_files, solo12):
+def test_postures_are_those_requested(folder, no_files, solo12):
     zero = design(SOLO12, "--posture", "zero", "-o", "zero")
     check_inertia(zero, solo12, {})
     assert zero["robot"]["posture_name"] == "zero"
@@ -210,19 +212,19 @@ def test_postures_are_what_is_asked_for(folder, no_files, solo12):
 
 @pytest.mark.slow
 def test_another_trunk_has_its_own_frame(folder, solo12):
-    """The device then sits on a leg: nobody would, but it is what was asked for."""
-    found = design(SOLO12, "--posture", "zero", "--trunk", "HL_UPPER_LEG", *FEET, "-o", "leg")
-    check_inertia(found, solo12, {}, "HL_UPPER_LEG")
+    """As an extreme case the device is on a leg."""
+    document = design(SOLO12, "--posture", "zero", "--trunk", "HL_UPPER_LEG", *FEET, "-o", "leg")
+    check_inertia(document, solo12, {}, "HL_UPPER_LEG")
     urdf = (folder / "leg" / "robot" / "solo12_ocs.urdf").read_text()
     assert urdf.count('<parent link="HL_UPPER_LEG"/>') == 3
 
 
 def test_a_keyframe_by_name(folder, no_files, solo12, mjcf):
     (folder / "solo12.xml").write_text(mjcf)
-    found = design("solo12.xml", "--posture", "crouch", "-o", "crouch")
+    document = design("solo12.xml", "--posture", "crouch", "-o", "crouch")
     names = list(solo12.model.names)[2:]
-    check_inertia(found, solo12, dict(zip(names, (0.1, 0.6, -1.1) * 4, strict=True)))
-    assert found["robot"]["posture_name"] == "crouch"
+    check_inertia(document, solo12, dict(zip(names, (0.1, 0.6, -1.1) * 4, strict=True)))
+    assert document["robot"]["posture_name"] == "crouch"
 
 
 @pytest.mark.slow
@@ -233,7 +235,7 @@ def test_an_srdf_state_by_name(folder, no_files, solo12):
         '<joint name="FL_HFE" value="0.7"/><joint name="HR_KFE" value="1.5"/>'
         "</group_state></robot>"
     )
-    found = design("solo12.urdf", "--posture", "kneel")
-    check_inertia(found, solo12, {"FL_HFE": 0.7, "HR_KFE": 1.5})
+    document = design("solo12.urdf", "--posture", "kneel")
+    check_inertia(document, solo12, {"FL_HFE": 0.7, "HR_KFE": 1.5})
     wrong = run("size", "solo12.urdf", "--posture", "kneal", "-o", "wrong")
     assert (wrong.code, "available: kneel" in wrong.output) == (3, True)

@@ -1,4 +1,4 @@
-"""Any robot by hand, and files that were cut or altered."""
+"""Random options, robots by hand and specifications."""
 
 import shutil
 import tempfile
@@ -45,7 +45,7 @@ OPTIONS = [
     *("--h-max", "--h-min", "--wall-min", "--wheel-mass-max", "--position", "--material"),
     *("--motor", "--gear", "--bus-voltage", "--joint", "--posture", "--trunk"),
 ]
-# One drive: how the choice among all of them goes is no matter of what is typed, but of minutes.
+# A single drive, because the search over all of them would take minutes.
 DRIVES = st.sampled_from(
     [
         ("--motor=none",),
@@ -65,14 +65,14 @@ VALUES = st.one_of(
 
 @pytest.fixture
 def folder(monkeypatch):
-    """Empty at first; every command cleans up what it has written."""
+    """An empty working folder."""
     with tempfile.TemporaryDirectory() as name:
         monkeypatch.chdir(name)
         yield Path(name)
 
 
 def check_exit(folder, *arguments):
-    """A known exit code, and a folder only where it says so."""
+    """The exit code is a known one, and only a successful command writes a folder."""
     before = all_paths_in(folder)
     result = run(*arguments)
     assert result.code in {0, 1, 2, 3, 4}
@@ -82,8 +82,8 @@ def check_exit(folder, *arguments):
     assert all_paths_in(folder) == before
 
 
-def extreme(test):
-    """Each limit of a robot like Solo12 beyond all reason."""
+def with_extreme_limits(test):
+    """Examples of a robot like Solo12 with one extreme limit."""
     for name in ("--r-max", "--wheel-speed-max", "--rate-change", "--wheel-mass-max"):
         for value in ("1e-300", "1e300"):
             given = {"mass": "2.5", "inertia": "0.03,0.05,0.07", "drive": ("--motor=none",)}
@@ -101,11 +101,11 @@ def extreme(test):
 )
 @example(mass="1e-300", inertia="1e-300,1e-300,1e-300", options={}, drive=("--motor=none",))
 @example(mass="1e300", inertia="1e300,1e300,1e300", options={}, drive=("--motor=none",))
-@extreme
+@with_extreme_limits
 def test_robots_by_hand(folder, mass, inertia, options, drive):
-    typed = [f"{name}={value}" for name, value in options.items()]
+    arguments = [f"{name}={value}" for name, value in options.items()]
     by_hand = (f"--mass={mass}", f"--inertia={inertia}")
-    check_exit(folder, "size", *by_hand, *drive, *typed, "--no-validate", "-q", "-o", "out")
+    check_exit(folder, "size", *by_hand, *drive, *arguments, "--no-validate", "-q", "-o", "out")
 
 
 @pytest.mark.slow
@@ -121,7 +121,7 @@ def test_robots_by_hand(folder, mass, inertia, options, drive):
     ),
     drive=DRIVES,
 )
-# Light as foam: the largest wheel that has room would have more inertia than the robot.
+# A robot as light as foam: the largest wheel would have more inertia than the robot.
 @example(
     moments=[1.0, 1.0, 1.0],
     size=-1.0,
@@ -129,13 +129,13 @@ def test_robots_by_hand(folder, mass, inertia, options, drive):
     options={},
     drive=("--motor=EC 90 flat 90 W 323772", "--gear=direct", "--material=brass-c360"),
 )
-def test_robots_that_can_exist_of_any_size(folder, moments, size, density, options, drive):
-    """From a grain of dust to a mountain, with limits from a hair's breadth to the moon's way."""
+def test_physical_robots_of_any_size(folder, moments, size, density, options, drive):
+    """From a grain of dust to a mountain, with limits of 1e-12 to 1e12."""
     mass = 10.0 ** (density + 3.0 * size)
     inertia = ",".join(f"{mass * 10.0 ** (2.0 * size) * moment:.6g}" for moment in moments)
-    typed = [f"{name}={value}" for name, value in options.items()]
+    arguments = [f"{name}={value}" for name, value in options.items()]
     by_hand = (f"--mass={mass:.6g}", f"--inertia={inertia}")
-    check_exit(folder, "size", *by_hand, *drive, *typed, "--no-validate", "-q", "-o", "out")
+    check_exit(folder, "size", *by_hand, *drive, *arguments, "--no-validate", "-q", "-o", "out")
 
 
 def toml(value):
@@ -143,11 +143,11 @@ def toml(value):
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, dict):
-        return "{" + ", ".join(f"{toml(key)} = {toml(each)}" for key, each in value.items()) + "}"
+        return "{" + ", ".join(f"{toml(key)} = {toml(item)}" for key, item in value.items()) + "}"
     if isinstance(value, list):
         return "[" + ", ".join(map(toml, value)) + "]"
     if isinstance(value, str):
-        escaped = "".join(f"\\U{ord(each):08x}" if ord(each) < 0xD800 else "?" for each in value)
+        escaped = "".join(f"\\U{ord(char):08x}" if ord(char) < 0xD800 else "?" for char in value)
         return f'"{escaped}"'
     return repr(value)
 
@@ -170,8 +170,8 @@ def test_specifications(folder, specified, maneuver, kind, drive):
         lines += [f"{name} = {toml(value)}" for name, value in maneuver.items()]
     (folder / "s.toml").write_text("\n".join(lines))
     by_hand = ("--mass", "2.5", "--inertia", "0.03,0.05,0.07")
-    typed = ("--spec", "s.toml", *by_hand, *drive)
-    check_exit(folder, "size", *typed, "--no-validate", "-q", "-o", "out")
+    arguments = ("--spec", "s.toml", *by_hand, *drive)
+    check_exit(folder, "size", *arguments, "--no-validate", "-q", "-o", "out")
 
 
 @pytest.mark.slow
@@ -183,16 +183,16 @@ def test_specifications(folder, specified, maneuver, kind, drive):
     torque=st.floats(-2.0, 2.0),
 )
 def test_flights_of_robots_by_hand(folder, moments, scale, speed, torque):
-    """From a toy to an elephant, with motors from hopeless to needless."""
+    """From a toy to an elephant, with motors from too weak to far too strong."""
     mass, size = 10.0**scale, 10.0 ** (scale * 5.0 / 3.0)
-    typed = (
+    arguments = (
         f"--mass={mass:.6g}",
         f"--inertia={','.join(f'{0.05 * size * moment:.6g}' for moment in moments)}",
         f"--wheel-speed-max={10.0**speed:.6g}",
         f"--torque-max={10.0**torque * size:.6g}",
         "--motor=none",
     )
-    check_exit(folder, "size", *typed, "-q", "-o", "out")
+    check_exit(folder, "size", *arguments, "-q", "-o", "out")
 
 
 SCRIPT = Path(__file__).parents[2] / "examples" / "level_in_mujoco.py"

@@ -1,4 +1,4 @@
-"""Ends that come early: the reader leaves, the user has enough."""
+"""Commands that end early: by a closed pipe, an interrupt or a closed terminal."""
 
 import os
 import re
@@ -12,42 +12,42 @@ from commands import BOUND, PROGRAM, SOLO12, all_paths_in
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("typed", ["inspect --json", "size"])
-def test_the_reader_of_the_output_may_leave(folder, typed):
-    """As `head` does: no complaint, and nothing half done is left."""
-    command, *options = typed.split()
+@pytest.mark.parametrize("arguments", ["inspect --json", "size"])
+def test_a_closed_pipe_ends_the_command_silently(folder, arguments):
+    """As with `head`: no error message and no unfinished files."""
+    command, *options = arguments.split()
     reading, writing = os.pipe()
     os.close(reading)
     streams = {"stdout": writing, "stderr": subprocess.PIPE if options else writing}
     process = subprocess.Popen([*PROGRAM, command, SOLO12, *options], **streams)
     os.close(writing)
-    complaint = process.communicate()[1]
-    assert not complaint
+    errors = process.communicate()[1]
+    assert not errors
     assert process.returncode == 141
     assert all_paths_in(folder) == []
 
 
-def started(process, folder, said):
-    """Its own handlers stand, and nothing is imported yet."""
+def started(process, folder, stderr):
+    """The signal handlers are installed, and no library is imported yet."""
     caught = re.search(r"SigCgt:\s*(\w+)", Path(f"/proc/{process.pid}/status").read_text())[1]
     return int(caught, 16) >> (signal.SIGTERM - 1) & 1
 
 
-def loaded(process, folder, said):
-    """The solver is, and the robot is read next."""
-    return b"load the solver" in said.read_bytes()
+def loaded(process, folder, stderr):
+    """The solver is being loaded; the robot is read next."""
+    return b"load the solver" in stderr.read_bytes()
 
 
-def written(process, folder, said):
-    """Some files stand in a hidden folder."""
+def written(process, folder, stderr):
+    """Some files are written to the hidden folder."""
     return any(folder.glob(".*/new/robot/*.urdf"))
 
 
 @pytest.fixture(autouse=True)
-def heeded():
-    """Who starts the tests in the background ignores interrupts, and so would all that they start.
+def default_handlers():
+    """Handle the signals, so that new processes have the default handlers.
 
-    What is caught here is at its default in a new process.
+    Tests started in the background ignore interrupts, and so would their child processes.
     """
     before = {
         number: signal.signal(number, signal.default_int_handler)
@@ -60,21 +60,21 @@ def heeded():
 
 @pytest.fixture
 def interrupted(folder, tmp_path_factory):
-    """Sends signals to a process at a moment; its exit code and what it said."""
+    """A function that sends signals to a command at a moment: its exit code and its messages."""
 
     def end_at(moment, *signals, options=()):
-        """Poll until the moment, as nothing tells of it."""
-        said = tmp_path_factory.mktemp("said") / "stderr"
+        """Poll until the moment, then send the signals."""
+        stderr = tmp_path_factory.mktemp("said") / "stderr"
         command = [*PROGRAM, "size", SOLO12, *BOUND, "--ballistic"]
-        with said.open("wb") as stream:
+        with stderr.open("wb") as stream:
             process = subprocess.Popen([*command, *options], stderr=stream)
             deadline = time.monotonic() + 60.0
-            while not moment(process, folder, said) and time.monotonic() < deadline:
+            while not moment(process, folder, stderr) and time.monotonic() < deadline:
                 time.sleep(0.002)
             for number in signals:
                 process.send_signal(number)
                 time.sleep(0.05)
-            return process.wait(), said.read_text()
+            return process.wait(), stderr.read_text()
 
     return end_at
 
@@ -89,30 +89,30 @@ TWICE = (signal.SIGINT, signal.SIGINT)
         (started, (signal.SIGTERM,)),
         pytest.param(loaded, (signal.SIGHUP,), marks=pytest.mark.slow),
     ],
-    ids=lambda each: getattr(each, "__name__", None) or "-".join(number.name for number in each),
+    ids=lambda case: getattr(case, "__name__", None) or "-".join(number.name for number in case),
 )
-def test_an_interrupt_leaves_nothing(folder, interrupted, moment, signals):
-    code, said = interrupted(moment, *signals)
-    assert "Traceback" not in said
-    assert code == 130, said
-    assert said.endswith("interrupted; no unfinished files are left\n")
+def test_an_interrupt_leaves_no_files(folder, interrupted, moment, signals):
+    code, messages = interrupted(moment, *signals)
+    assert "Traceback" not in messages
+    assert code == 130, messages
+    assert messages.endswith("interrupted; no unfinished files are left\n")
     assert all_paths_in(folder) == []
 
 
 @pytest.mark.slow
-def test_an_interrupt_keeps_what_was_to_be_replaced(folder, interrupted):
+def test_an_interrupt_keeps_the_existing_folder(folder, interrupted):
     (folder / "solo12-ocs").mkdir()
     (folder / "solo12-ocs" / "design.json").write_bytes(b"{}")
-    code, said = interrupted(written, *TWICE, options=("--force",))
-    assert "Traceback" not in said
-    assert code == 130, said
-    assert said.endswith("interrupted; no unfinished files are left\n")
+    code, messages = interrupted(written, *TWICE, options=("--force",))
+    assert "Traceback" not in messages
+    assert code == 130, messages
+    assert messages.endswith("interrupted; no unfinished files are left\n")
     assert all_paths_in(folder) == ["solo12-ocs", "solo12-ocs/design.json"]
 
 
 @pytest.mark.slow
-def test_a_terminal_that_closes_interrupts(folder):
-    """What is to be printed then cannot be."""
+def test_a_closed_terminal_interrupts(folder):
+    """Nothing can be printed any more."""
     terminal, writing = os.openpty()
     command = [*PROGRAM, "size", SOLO12, *BOUND]
     process = subprocess.Popen(

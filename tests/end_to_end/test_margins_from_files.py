@@ -1,4 +1,4 @@
-"""Every margin, and what the first screen shows, calculated once more from the files alone."""
+"""Every margin and the printed figures, recalculated from the files alone."""
 
 import json
 import math
@@ -27,18 +27,18 @@ torque = ["0.3 N m", "1.2 N m", 0]
 onset = "0.1 s"
 duration = "0.05 s"
 """
-"""A push that no plan foresees: what is asked of the drive is what was flown."""
+"""A push, for which there is no plan: the demands on the drive are those of the flight."""
 
 
 @pytest.fixture(scope="module")
 def sized(tmp_path_factory, no_alternatives):
-    """What `size` said, and the files of a design that was pushed in the air."""
+    """Result of `size`, and the files of a design for a push in the air."""
     folder = tmp_path_factory.mktemp("pushed")
     (folder / "push.toml").write_text(UNPLANNED)
     out = folder / "out"
-    said = run("size", SOLO12, "--spec", folder / "push.toml", "-o", out)
-    assert said.code in {0, 1}, said.output
-    return said, FlownMargins(out)
+    result = run("size", SOLO12, "--spec", folder / "push.toml", "-o", out)
+    assert result.code in {0, 1}, result.output
+    return result, FlownMargins(out)
 
 
 def margins_of(flown):
@@ -54,18 +54,18 @@ def test_the_motor_is_its_row_in_the_catalogue(sized):
     assert motor["torque_limit"] == pytest.approx(useful * motor["torque_constant"])
 
 
-def test_every_demand_is_what_was_flown(sized):
-    """To the six digits of the time series; less sharp where those are subtracted or summed."""
-    loose = {"winding heat": 5e-4, "bearing moment": 1e-3}
+def test_every_demand_is_that_of_the_flight(sized):
+    """To the six digits of the time series; less where differences or sums of them are formed."""
+    tolerances = {"winding heat": 5e-4, "bearing moment": 1e-3}
     flown = sized[1]
     margins = margins_of(flown)
-    for name, recorded in flown.demands().items():
-        rel = loose.get(name, 2e-5)
-        assert margins[name]["demand"] == pytest.approx(recorded, rel=rel), name
+    for name, demand in flown.demands().items():
+        rel = tolerances.get(name, 2e-5)
+        assert margins[name]["demand"] == pytest.approx(demand, rel=rel), name
         assert margins[name]["scenario"] == "push"
 
 
-def test_the_time_series_ask_for_no_more_than_the_margins_state(sized):
+def test_the_time_series_do_not_exceed_the_demands(sized):
     flown = sized[1]
     margins = margins_of(flown)
     for table in flown.tables:
@@ -76,7 +76,7 @@ def test_the_time_series_ask_for_no_more_than_the_margins_state(sized):
 
 
 def test_energies_are_the_integral_of_the_power(sized):
-    """Power is linear while a torque is held; where it changes its sign is to a step."""
+    """Power is linear while a torque is held; its zeros are accurate to a step."""
     flown = sized[1]
     margins = margins_of(flown)
     (table,) = flown.tables
@@ -90,8 +90,8 @@ def test_energies_are_the_integral_of_the_power(sized):
         ("energy fed back", 0.0, -1.0),
     ):
         ends = [
-            (sign * flown.power(torque, each, idle * (each != 0.0))).clip(0.0)
-            for each in (speed[:-1], speed[1:])
+            (sign * flown.power(torque, end, idle * (end != 0.0))).clip(0.0)
+            for end in (speed[:-1], speed[1:])
         ]
         energy = float(steps @ (0.5 * (ends[0] + ends[1])))
         assert margins[name]["demand"] == pytest.approx(energy, rel=0.03)
@@ -108,7 +108,7 @@ def test_every_capacity_is_that_of_its_part(sized):
         assert margins[name]["capacity"] == pytest.approx(watts / 24.0)
     peak = float(row["peak_current_a"]) * motor["torque_constant"]
     assert margins["motor torque"]["capacity"] == pytest.approx(peak)
-    # Its source gives no highest speed: no faster than without load at its rated voltage.
+    # Without a maximum speed in the catalogue the no-load speed at rated voltage is the limit.
     top = float(row["rated_voltage_v"]) / motor["torque_constant"]
     assert margins["wheel speed"]["capacity"] == pytest.approx(top)
     assert margins["motor speed"]["capacity"] == pytest.approx(top)
@@ -121,14 +121,15 @@ def test_every_capacity_is_that_of_its_part(sized):
 
 
 def test_the_rms_current_is_that_of_the_flight(sized):
-    """The worse of the whole run and of lift-off to touchdown."""
+    """The larger value of the whole run and of the time from lift-off to touchdown."""
     flown = sized[1]
     (table,) = flown.tables
     (metrics,) = (run["metrics"] for run in flown.design["validation"] if run["ocs"])
     lift_off, touchdown = metrics["lift_off_time"] - 1e-6, metrics["touchdown_time"] + 1e-6
-    inside = (table["time"] >= lift_off) & (table["time"] <= touchdown)
+    in_flight = (table["time"] >= lift_off) & (table["time"] <= touchdown)
     parts = [
-        {name: table[name][part] for name in ("time", "torque", "speed")} for part in (inside, ...)
+        {name: table[name][part] for name in ("time", "torque", "speed")}
+        for part in (in_flight, ...)
     ]
     means = [
         math.sqrt(
@@ -139,27 +140,27 @@ def test_the_rms_current_is_that_of_the_flight(sized):
     assert margins_of(flown)["rms current"]["demand"] == pytest.approx(max(means), rel=5e-4)
 
 
-def test_the_first_screen_shows_these_figures(sized):
-    """Each number of the device's block, from the files."""
-    said, flown = sized
+def test_the_output_shows_these_figures(sized):
+    """Each number in the block of the device agrees with the files."""
+    result, flown = sized
     ocs, wheel, motor = flown.design["ocs"], flown.design["ocs"]["flywheel"], flown.motor
-    shown = said.output
+    text = result.output
     share = ocs["mass_total"] / flown.design["robot"]["mass"]
-    assert f"{1e3 * ocs['mass_total']:.1f} g, {share:.1%} of the robot" in shown
-    parts = re.search(r" module (.*?) (?:plate|incidence)", shown)[1]
+    assert f"{1e3 * ocs['mass_total']:.1f} g, {share:.1%} of the robot" in text
+    parts = re.search(r" module (.*?) (?:plate|incidence)", text)[1]
     grams = sum(map(float, re.findall(r"[\d.]+", parts)))
-    plate = re.search(r" plate ([\d.]+) g", shown)
-    whole = 2.0 * grams + (float(plate[1]) if plate else 0.0)
-    assert whole == pytest.approx(1e3 * ocs["mass_total"], abs=0.6)
+    plate = re.search(r" plate ([\d.]+) g", text)
+    mass = 2.0 * grams + (float(plate[1]) if plate else 0.0)
+    assert mass == pytest.approx(1e3 * ocs["mass_total"], abs=0.6)
     sizes = (1e3 * wheel[name] for name in ("outer_radius", "inner_radius", "height"))
-    assert "R {:.2f} r {:.2f} h {:.2f} mm".format(*sizes) in shown
-    assert f"{math.degrees(ocs['incidence']):.2f} deg" in shown
+    assert "R {:.2f} r {:.2f} h {:.2f} mm".format(*sizes) in text
+    assert f"{math.degrees(ocs['incidence']):.2f} deg" in text
     top = 24.0 / motor["torque_constant"] * 30.0 / math.pi
-    # One highest speed: what the drive reaches at this voltage. It stood beside a higher one.
-    reached = f"at most {top:,.0f} rpm (without load at 24 V) and {motor['torque_limit']:.3g} N m"
-    assert reached in shown
+    # A single maximum speed, that of the drive at this voltage; once there was a higher one too.
+    limits = f"at most {top:,.0f} rpm (without load at 24 V) and {motor['torque_limit']:.3g} N m"
+    assert limits in text
     demands, margins = flown.demands(), margins_of(flown)
-    used = re.findall(r"(\d+)% (\D*)", re.search(r" used (.*?) Flights", shown)[1])
+    used = re.findall(r"(\d+)% (\D*)", re.search(r" used (.*?) Flights", text)[1])
     assert [int(percent) for percent, _ in used] == sorted(
         (int(percent) for percent, _ in used), reverse=True
     )
@@ -171,7 +172,7 @@ def test_the_first_screen_shows_these_figures(sized):
 
 
 @pytest.mark.parametrize(
-    ("key", "said"),
+    ("key", "message"),
     [
         ("ocs.motor.torque_limit", "the capacity of motor torque in margins"),
         ("ocs.motor.speed_max", "the capacity of wheel speed in margins"),
@@ -181,44 +182,44 @@ def test_the_first_screen_shows_these_figures(sized):
         ("ocs.flywheel.stress_margin", "dimensions, material and top speed give"),
     ],
 )
-def test_a_limit_that_was_changed_by_hand_is_refused_with_its_key(sized, key, said, tmp_path):
-    """Flights would keep to it, and be judged by another."""
+def test_a_limit_changed_by_hand_is_refused_with_its_key(sized, key, message, tmp_path):
+    """Otherwise flights would keep one limit and be judged by another."""
     document = json.loads((sized[1].folder / "design.json").read_text())
     with_value(document, key, lambda figure: 1.01 * figure)
     (tmp_path / "design.json").write_text(json.dumps(document))
-    with pytest.raises(OcsError, match=f"{key} is .*{said}"):
+    with pytest.raises(OcsError, match=f"{key} is .*{message}"):
         read_designed(tmp_path)
 
 
 @pytest.mark.parametrize("product", ["motor"], indirect=True)
-def test_no_flight_asks_for_more_than_is_stated(product):
-    """With plans, which may ask for more than was flown."""
+def test_no_flight_exceeds_the_demands(product):
+    """With plans, which may demand more than the flights."""
     flown = FlownMargins(product.folder)
     margins = margins_of(flown)
-    for name, recorded in flown.demands().items():
-        assert recorded <= margins[name]["demand"] * (1.0 + 2e-5), name
+    for name, demand in flown.demands().items():
+        assert demand <= margins[name]["demand"] * (1.0 + 2e-5), name
 
 
-DRAWN = (
+RANDOM_DESIGNS = (
     (SOLO12, "--motor", "MN4014 KV400", "--bus-power", "700W"),
     ("--mass", "3.4", "--inertia", "0.05,0.09,0.12", "--motor", "AT4120 KV560"),
     (SOLO12, "--motor", "AT2820 KV1050", "--alpha", "25deg", "--bus-voltage", "20V"),
 )
-"""Three of the twenty designs that were drawn at random when this was written."""
+"""Three of twenty designs that were drawn at random."""
 
 
 @pytest.mark.usefixtures("no_alternatives", "no_files")
 @pytest.mark.parametrize(
-    "options", fast_subset(3, [(each,) for each in DRAWN], pytest.mark.exhaustive)
+    "options", fast_subset(3, [(options,) for options in RANDOM_DESIGNS], pytest.mark.exhaustive)
 )
-def test_no_flight_of_other_designs_asks_for_more_than_is_stated(options, tmp_path):
-    asked = (*options, "--gear", "direct", "--ballistic", "-q", "-o", tmp_path / "out")
-    said = run("size", *asked)
-    assert said.code in {0, 1}, said.output
+def test_no_flight_of_other_designs_exceeds_the_demands(options, tmp_path):
+    command = (*options, "--gear", "direct", "--ballistic", "-q", "-o", tmp_path / "out")
+    result = run("size", *command)
+    assert result.code in {0, 1}, result.output
     flown = FlownMargins(tmp_path / "out")
     margins, supply = margins_of(flown), flown.design["supply"]
-    for name, recorded in flown.demands().items():
-        assert recorded <= margins[name]["demand"] * (1.0 + 5e-4), name
+    for name, demand in flown.demands().items():
+        assert demand <= margins[name]["demand"] * (1.0 + 5e-4), name
     for table in flown.tables:
         assert abs(table["power"]).max() <= supply["power_max"]
         assert abs(table["current"]).max() <= supply["current_max"]

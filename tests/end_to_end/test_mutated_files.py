@@ -1,4 +1,4 @@
-"""A few changed files for every reader; `benchmarks/hostile_input.py` reads thousands of them."""
+"""A few mutated files for every reader; `benchmarks/hostile_input.py` reads thousands."""
 
 import random
 from contextlib import suppress
@@ -13,7 +13,7 @@ USUAL = 20
 
 
 @pytest.mark.parametrize("name", READERS)
-def test_what_was_not_changed_is_read(name, tmp_path):
+def test_original_files_are_read(name, tmp_path):
     if name == "xacro":
         pytest.importorskip("xacro")
     for content in READERS[name].seeds:
@@ -23,13 +23,13 @@ def test_what_was_not_changed_is_read(name, tmp_path):
 
 
 @pytest.mark.parametrize("name", READERS)
-def test_a_changed_file_is_read_or_explained(name, tmp_path):
+def test_a_mutated_file_is_read_or_refused(name, tmp_path):
     if name == "xacro":
         pytest.importorskip("xacro")
-    reader, draw = READERS[name], random.Random(20261121)
+    reader, random_source = READERS[name], random.Random(20261121)
     path = tmp_path / reader.file
     for _ in range(CASES.get(name, USUAL)):
-        path.write_bytes(mutated(reader.seeds, reader.words, draw))
+        path.write_bytes(mutated(reader.seeds, reader.words, random_source))
         with suppress(OcsError):
             reader.read(path)
-        assert {each.name for each in tmp_path.iterdir()} <= {reader.file, "mesh.urdf"}
+        assert {file.name for file in tmp_path.iterdir()} <= {reader.file, "mesh.urdf"}

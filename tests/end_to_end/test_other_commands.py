@@ -1,4 +1,4 @@
-"""Commands beside `size`: what they print and open, and films."""
+"""Other commands than `size`: what they print and open, and films."""
 
 import json
 import sys
@@ -16,7 +16,7 @@ from ocs_design.requirement import specification
 PAPER = ("bound", "--inertia", "0.0515", "--rate-change", "2", "--wheel-speed-max", "750rad/s")
 
 
-def test_bound_gives_the_worked_example_and_the_exact_one():
+def test_bound_gives_the_approximate_and_the_exact_inertia():
     answer = run(*PAPER, "--alpha", "40deg", "--json").document
     assert answer["paper"] == pytest.approx(1.36968e-4, rel=1e-5)
     assert answer["required"] == pytest.approx(0.0515 * 2.0 / 748.0, rel=1e-12)
@@ -30,14 +30,14 @@ def test_bound_on_roll_takes_the_sine():
     assert answer["spin_inertia"] == pytest.approx(per_wheel, rel=1e-12)
 
 
-def test_the_curve_of_a_bound_passes_through_it():
+def test_the_curve_passes_through_the_bound():
     answer = run(*PAPER, "--json").document
     row = answer["wheel_speeds"].index(answer["wheel_speed_max"])
     column = answer["rate_changes"].index(answer["rate_change"])
     assert answer["curve"][row][column] == pytest.approx(answer["required"] / 0.0515, rel=1e-12)
 
 
-def test_bound_in_words_names_both_forms():
+def test_the_text_of_bound_has_both_inertias():
     result = run(*PAPER)
     assert (result.code, result.stderr) == (0, "")
     assert "137.701 kg mm2" in result.output
@@ -55,17 +55,17 @@ def test_bound_in_words_names_both_forms():
         (("--inertia", "5kg"), "--inertia"),
     ],
 )
-def test_a_bound_that_makes_no_sense_is_wrong_usage(options, words):
+def test_impossible_bounds_are_wrong_usage(options, words):
     assert words in failure(2, *PAPER, *options)
 
 
-def test_inspect_says_what_size_goes_by():
-    found = run("inspect", SOLO12, "--json").document
-    robot = found["robot"]
+def test_inspect_shows_the_input_of_size():
+    document = run("inspect", SOLO12, "--json").document
+    robot = document["robot"]
     inertia = np.array(robot["inertia"])
     alpha = equal_rate(inertia)
-    assert found["incidence_by_criterion"]["equal-rate"] == pytest.approx(alpha, rel=1e-12)
-    nominal = found["incidence_by_posture"][0]
+    assert document["incidence_by_criterion"]["equal-rate"] == pytest.approx(alpha, rel=1e-12)
+    nominal = document["incidence_by_posture"][0]
     assert nominal["incidence"] == pytest.approx(alpha, rel=1e-12)
     text = run("inspect", SOLO12).output
     assert "stand, trunk 272 mm over the feet" in text
@@ -75,7 +75,7 @@ def test_inspect_says_what_size_goes_by():
     assert "FL_HFE 0.6435 36.9" in run("inspect", SOLO12, "-v").output
 
 
-def test_the_bound_alone_names_the_extra_that_it_needs(monkeypatch, tmp_path):
+def test_a_missing_solver_is_reported_with_its_extra(monkeypatch, tmp_path):
     monkeypatch.setitem(sys.modules, "cvxpy", None)
     monkeypatch.chdir(tmp_path)
     assert extra_command("bound") in failure(5, "size", *BY_HAND, *BOUND)
@@ -83,7 +83,7 @@ def test_the_bound_alone_names_the_extra_that_it_needs(monkeypatch, tmp_path):
 
 
 @pytest.mark.parametrize("option", ["-V", "--version"])
-def test_the_version_is_told(option):
+def test_the_version_is_printed(option):
     assert run(option).stdout == f"ocs-design {__version__}\n"
 
 
@@ -96,20 +96,22 @@ def test_json_errors_are_one_document():
 @pytest.mark.slow
 @pytest.mark.usefixtures("no_files")
 def test_the_demo_sizes_solo12_from_any_folder(folder, monkeypatch):
-    """Without a screen the page's place is said; a second one is not written over it.
+    """Without a display the path of the report is printed; a second demo does not replace it.
 
-    Of wheels alone, which is quick: with all its defaults the notebook sizes it.
+    Wheels alone are quick to size; the notebook tests the defaults.
     """
-    asked = specification.specification_from_options
-    quick = {"motor.name": "none", "validation.ballistic": True}
+    original = specification.specification_from_options
+    overrides = {"motor.name": "none", "validation.ballistic": True}
     monkeypatch.setattr(
-        specification, "specification_from_options", lambda options: asked({**options, **quick})
+        specification,
+        "specification_from_options",
+        lambda options: original({**options, **overrides}),
     )
     for name in ("DISPLAY", "WAYLAND_DISPLAY", "BROWSER"):
         monkeypatch.delenv(name, raising=False)
-    told, folder = run("demo"), folder / "solo12-ocs"
-    assert told.code == 0
-    assert f"no browser to open {folder / 'report.html'}" in told.stderr
+    result, folder = run("demo"), folder / "solo12-ocs"
+    assert result.code == 0
+    assert f"no browser to open {folder / 'report.html'}" in result.stderr
     design = read_design(folder / "design.json")
     assert design.robot.name == "solo12"
     assert all(flight.passed for flight in design.validation if flight.ocs)
@@ -118,15 +120,15 @@ def test_the_demo_sizes_solo12_from_any_folder(folder, monkeypatch):
     assert "--force" in again
 
 
-@pytest.mark.parametrize("asked", [True, False])
-def test_the_report_is_opened_if_that_is_asked_for(asked, no_files, tmp_path, monkeypatch):
+@pytest.mark.parametrize("open_report", [True, False])
+def test_the_report_is_opened_on_request(open_report, no_files, tmp_path, monkeypatch):
     opened = []
     monkeypatch.setattr("webbrowser.open", lambda page: opened.append(page) or True)
     monkeypatch.setenv("DISPLAY", ":7")
-    flags = ("--open",) if asked else ()
-    done = run("size", *BY_HAND, *BOUND, "--no-validate", "-q", "-o", tmp_path / "o", *flags)
-    assert (done.code, done.output.strip()) == (0, "")
-    assert opened == ([(tmp_path / "o" / "report.html").as_uri()] if asked else [])
+    flags = ("--open",) if open_report else ()
+    result = run("size", *BY_HAND, *BOUND, "--no-validate", "-q", "-o", tmp_path / "o", *flags)
+    assert (result.code, result.output.strip()) == (0, "")
+    assert opened == ([(tmp_path / "o" / "report.html").as_uri()] if open_report else [])
 
 
 FALL = """[motor]
@@ -142,9 +144,9 @@ pitch = "10 deg"
 
 
 @pytest.mark.slow
-def test_a_film_of_each_maneuver_or_the_reason_why_not(tmp_path):
+def test_video_writes_films_or_says_why_not(tmp_path):
     (tmp_path / "fall.toml").write_text(FALL)
-    done = run("size", SOLO12, "--spec", tmp_path / "fall.toml", "-o", tmp_path / "out")
+    result = run("size", SOLO12, "--spec", tmp_path / "fall.toml", "-o", tmp_path / "out")
     films = [path.name for path in (tmp_path / "out" / "validation").glob("fall.*")]
-    assert done.code in {0, 1}
-    assert films in (["fall.mp4"], ["fall.gif"]) or "no video, because" in done.output
+    assert result.code in {0, 1}
+    assert films in (["fall.mp4"], ["fall.gif"]) or "no video, because" in result.output

@@ -1,4 +1,4 @@
-"""`ocs-design pareto` as its users meet it."""
+"""`ocs-design pareto` on the command line."""
 
 import csv
 import json
@@ -17,19 +17,19 @@ ONE_MOTOR = (
     *("--motor", "Antigravity MN6007 II KV320", "--gear", "direct"),
     *("--material", "stainless-304"),
 )
-"""Little to choose from makes it quick; a motor that is not at its limit."""
+"""A single drive and material keep the search fast; the motor is not at its limit."""
 
 
 @pytest.fixture(scope="module")
 def written(tmp_path_factory):
-    """Solo12 against time, in a folder and as JSON."""
+    """Result and folder of a front of Solo12 against time."""
     folder = tmp_path_factory.mktemp("pareto") / "front"
     times = ("--from", "390ms", "--to", "500ms", "--points", "3")
     result = run("pareto", SOLO12, *ONE_MOTOR, *times, "-o", folder, "--json")
     return result, folder
 
 
-def test_the_document_and_the_folder_say_the_same(written):
+def test_document_and_folder_agree(written):
     result, folder = written
     assert (result.code, result.stderr) == (0, "")
     assert json.loads((folder / "front.json").read_text()) == result.document
@@ -47,8 +47,8 @@ def test_the_document_and_the_folder_say_the_same(written):
         assert float(row["mass_kg"]) == point["device"]["mass"]
 
 
-def test_a_tool_that_is_missing_is_no_doubt(folder, monkeypatch):
-    """It is told where the step ends that would have used it."""
+def test_a_missing_tool_is_noted_at_its_step(folder, monkeypatch):
+    """The note is at the end of the step that uses it, not among the warnings."""
     monkeypatch.setitem(sys.modules, "resvg_py", None)
     short = ("--from", "390ms", "--to", "400ms", "--points", "2")
     result = run("pareto", SOLO12, *ONE_MOTOR, *short, "-o", "front")
@@ -57,22 +57,22 @@ def test_a_tool_that_is_missing_is_no_doubt(folder, monkeypatch):
     assert "write the front figures are not written as PNG, because resvg-py" in result.output
 
 
-def test_a_point_s_specification_makes_that_very_device(written):
-    """At one end; the one in the middle is sized below."""
+def test_the_specification_of_a_point_gives_its_device(written):
+    """At one end; the next test sizes the point in the middle."""
     result, folder = written
     for point in result.document["points"][:1]:
-        again = lightest_device(read_task(read_specification(folder / point["file"])))
-        assert vars(again) == point["device"]
+        device = lightest_device(read_task(read_specification(folder / point["file"])))
+        assert vars(device) == point["device"]
 
 
-def test_size_makes_the_device_of_a_point(written, no_alternatives, no_files, tmp_path):
+def test_size_gives_the_device_of_a_point(written, no_alternatives, no_files, tmp_path):
     result, folder = written
     point = result.document["points"][1]
-    sized = run(
+    point_result = run(
         "size", "--spec", folder / point["file"], "--no-validate", "--json", "-o", tmp_path / "ocs"
     )
-    assert sized.code == 0
-    design = sized.document
+    assert point_result.code == 0
+    design = point_result.document
     assert design["ocs"]["mass_total"] == pytest.approx(point["device"]["mass"], rel=1e-12)
     assert design["ocs"]["incidence"] == point["device"]["incidence"]
     assert design["ocs"]["motor"]["name"] == point["device"]["motor"]
@@ -81,11 +81,11 @@ def test_size_makes_the_device_of_a_point(written, no_alternatives, no_files, tm
     assert first["mass"] == point["device"]["mass"]
     parts = ("wheels_mass", "motors_mass", "gears_mass", "housings_mass", "plate_mass")
     assert sum(first[part] for part in parts) == pytest.approx(first["mass"], rel=1e-12)
-    # Solo12's trunk is too narrow for both feet.
+    # A plate is needed since Solo12's trunk is too narrow for both feet.
     assert first["plate_mass"] > 0.02
 
 
-def test_a_criterion_for_the_incidence_holds_in_every_point():
+def test_the_criterion_for_the_incidence_applies_to_every_point():
     result = run(
         "pareto", SOLO12, *ONE_MOTOR, "--points", "2", "--json", "--alpha-criterion", "pitch-only"
     )
@@ -94,18 +94,18 @@ def test_a_criterion_for_the_incidence_holds_in_every_point():
         assert point["device"] is None or point["device"]["incidence"] == 0.0
 
 
-def test_options_hold_in_every_point(written):
+def test_options_apply_to_every_point(written):
     result, _ = written
     devices = [point["device"] for point in result.document["points"]]
     assert {device["motor"] for device in devices} == {"Antigravity MN6007 II KV320"}
     assert {device["gear"] for device in devices} == {"direct"}
 
 
-def test_values_out_of_reach_are_told_and_exit_with_4():
+def test_infeasible_values_are_listed_with_exit_code_4():
     short = ("--from", "20ms", "--to", "30ms", "--points", "2")
-    said = failure(4, "pareto", SOLO12, *ONE_MOTOR, *short)
-    for words in ("No device", "20 ms:", "30 ms:"):
-        assert words in said
+    message = failure(4, "pareto", SOLO12, *ONE_MOTOR, *short)
+    for part in ("No device", "20 ms:", "30 ms:"):
+        assert part in message
 
 
 @pytest.mark.parametrize(
@@ -120,16 +120,16 @@ def test_values_out_of_reach_are_told_and_exit_with_4():
         (("--package-path", "x"), 2, "NAME=DIR"),
     ],
 )
-def test_what_makes_no_front(options, code, words):
+def test_impossible_fronts_are_refused(options, code, words):
     assert words in failure(code, "pareto", SOLO12, *options)
 
 
-def test_without_a_robot():
+def test_without_a_robot_it_is_wrong_usage():
     assert "no robot is given" in failure(2, "pareto")
 
 
-def test_a_foreign_folder_is_refused_before_any_work(tmp_path):
+def test_a_foreign_folder_is_refused_before_the_search(tmp_path):
     (tmp_path / "letter.txt").write_text("dear")
-    said = failure(3, "pareto", SOLO12, "-o", tmp_path, "--force")
-    assert "not an output of ocs-design" in said
-    assert "choose a device" not in said
+    message = failure(3, "pareto", SOLO12, "-o", tmp_path, "--force")
+    assert "not an output of ocs-design" in message
+    assert "choose a device" not in message

@@ -1,4 +1,4 @@
-"""The product opened, with a motor and without one: every file, every number, every line."""
+"""The products of `size` with and without a motor: every file and every number."""
 
 import csv
 import hashlib
@@ -53,7 +53,7 @@ def at(document, path):
     return document
 
 
-def test_it_succeeds_and_leaves_nothing_but_its_folder(product):
+def test_it_succeeds_and_writes_only_its_folder(product):
     assert product.result.code == 0
     assert list(product.folder.parent.iterdir()) == [product.folder]
     written = {name for name in all_paths_in(product.folder) if (product.folder / name).is_file()}
@@ -80,10 +80,10 @@ def test_the_design_reads_back_as_it_was_written(product):
     assert to_json(read_design(path)) == path.read_bytes()
 
 
-def test_what_is_offered_as_lighter_is_lighter(document):
-    for each in document["alternatives"]:
-        if each["note"] != "saves nothing" and "bonded" not in each["change"]:
-            assert each["mass_total"] < document["ocs"]["mass_total"], each
+def test_alternatives_are_lighter(document):
+    for change in document["alternatives"]:
+        if change["note"] != "saves nothing" and "bonded" not in change["change"]:
+            assert change["mass_total"] < document["ocs"]["mass_total"], change
 
 
 def test_axes_follow_from_the_incidence(document, device):
@@ -96,15 +96,15 @@ def test_axes_follow_from_the_incidence(document, device):
 
 
 def test_wheels_do_not_touch_each_other(device):
-    """Two cylinders of radius R and height h, each within a sphere: far enough, or side by side."""
+    """Either their enclosing spheres are apart, or their extents in y."""
     left, right = (module.position for module in device.modules)
     wheel = device.flywheel
-    reach = np.hypot(wheel.outer_radius, wheel.height / 2.0)
-    sideways = [
+    radius = np.hypot(wheel.outer_radius, wheel.height / 2.0)
+    half_widths = [
         wheel.outer_radius * abs(module.axis[0]) + wheel.height / 2.0 * abs(module.axis[1])
         for module in device.modules
     ]
-    assert np.linalg.norm(left - right) > 2.0 * reach or left[1] - right[1] > sum(sideways)
+    assert np.linalg.norm(left - right) > 2.0 * radius or left[1] - right[1] > sum(half_widths)
 
 
 def test_the_total_is_the_sum_of_robot_and_modules(document, device):
@@ -115,40 +115,40 @@ def test_the_total_is_the_sum_of_robot_and_modules(document, device):
     np.testing.assert_allclose(ocs["total_inertia"], inertia, rtol=1e-9, atol=1e-12)
 
 
-def test_the_exported_urdf_is_the_design_to_pinocchio(document, device, exported):
+def test_pinocchio_reads_the_design_from_the_urdf(document, device, exported):
     check_wheels_in_pinocchio(exported, device, document["robot"]["trunk"])
-    found = pinocchio_mass_properties(
+    total = pinocchio_mass_properties(
         exported, configuration(exported, document["robot"]["posture"])
     )
     ocs = document["ocs"]
-    assert found.mass == pytest.approx(ocs["total_mass"], rel=1e-9)
-    np.testing.assert_allclose(found.com, ocs["total_com"], rtol=0.0, atol=1e-9)
-    np.testing.assert_allclose(found.inertia, ocs["total_inertia"], rtol=1e-9, atol=1e-11)
+    assert total.mass == pytest.approx(ocs["total_mass"], rel=1e-9)
+    np.testing.assert_allclose(total.com, ocs["total_com"], rtol=0.0, atol=1e-9)
+    np.testing.assert_allclose(total.inertia, ocs["total_inertia"], rtol=1e-9, atol=1e-11)
 
 
 @pytest.mark.parametrize("name", ["robot/solo12_ocs.xml", "robot/solo12_ocs.urdf"])
 def test_mujoco_reads_the_same_robot(product, document, device, name):
-    """MuJoCo fuses a URDF's root to the world: only its wheels can be compared."""
+    """MuJoCo fixes the root of a URDF to the world, so that only its wheels are compared."""
     model = mujoco.MjModel.from_xml_path(str(product.folder / name))
     for module in device.modules:
         body = model.body(f"ocs_{module.name}_flywheel")
         joint = model.joint(f"ocs_{module.name}")
         assert body.mass[0] == pytest.approx(device.flywheel.mass, rel=1e-9)
-        turned = np.empty(9)
-        mujoco.mju_quat2Mat(turned, body.iquat)
-        frame = turned.reshape(3, 3)
+        inertial_axes = np.empty(9)
+        mujoco.mju_quat2Mat(inertial_axes, body.iquat)
+        frame = inertial_axes.reshape(3, 3)
         check_moments(frame @ np.diag(body.inertia) @ frame.T, device)
-        placed = np.empty(9)
-        mujoco.mju_quat2Mat(placed, body.quat)
+        orientation = np.empty(9)
+        mujoco.mju_quat2Mat(orientation, body.quat)
         np.testing.assert_allclose(
-            placed.reshape(3, 3) @ joint.axis, module.axis, rtol=0.0, atol=1e-9
+            orientation.reshape(3, 3) @ joint.axis, module.axis, rtol=0.0, atol=1e-9
         )
         np.testing.assert_allclose(body.pos, module.position, rtol=0.0, atol=1e-9)
     if name.endswith(".xml"):
         assert model.body_mass.sum() == pytest.approx(document["ocs"]["total_mass"], rel=1e-9)
 
 
-def test_the_wheel_is_one_watertight_body_and_weighs_and_turns_as_it_should(product, device):
+def test_the_stl_of_the_wheel_is_watertight_with_its_mass_and_inertia(product, device):
     wheel, rotor = device.flywheel, device.motor.rotor_inertia
     mesh = trimesh.load_mesh(product.folder / "cad/flywheel.stl").apply_scale(1e-3)
     assert mesh.body_count == 1
@@ -174,12 +174,12 @@ def test_time_series_can_be_read_with_their_units(product, document, name):
     assert (np.diff(table["time_s"]) > 0.0).all()
     scenario, device_given = re.fullmatch(r"validation/(.+)_(with|without)_ocs\.csv", name).groups()
     metrics = next(
-        each["metrics"]
-        for each in document["validation"]
-        if (each["scenario"], each["ocs"]) == (scenario, device_given == "with")
+        flight["metrics"]
+        for flight in document["validation"]
+        if (flight["scenario"], flight["ocs"]) == (scenario, device_given == "with")
     )
-    begins, ends = metrics["lift_off_time"], metrics["touchdown_time"]
-    flight = (begins <= table["time_s"]) & (table["time_s"] <= ends)
+    lift_off, touchdown = metrics["lift_off_time"], metrics["touchdown_time"]
+    flight = (lift_off <= table["time_s"]) & (table["time_s"] <= touchdown)
     assert not table["contact"][flight][:-1].any()
     speeds = [
         np.abs(table[f"wheel_speed_{side}_rad_s"][flight]).max() for side in ("left", "right")
@@ -187,17 +187,17 @@ def test_time_series_can_be_read_with_their_units(product, document, name):
     assert max(speeds) == pytest.approx(metrics["peak_wheel_speed"], rel=0.05, abs=1e-6)
 
 
-def test_the_flights_prove_the_device(document):
-    runs = {(r["scenario"], r["ocs"]): r for r in document["validation"]}
+def test_flights_pass_with_the_device_and_fail_without(document):
+    runs = {(run["scenario"], run["ocs"]): run for run in document["validation"]}
     for scenario in ("disturbance", "drop", "back-flip"):
-        proved, bare = runs[scenario, True], runs[scenario, False]
-        assert proved["passed"] is True, proved["reason"]
+        carrying, bare = runs[scenario, True], runs[scenario, False]
+        assert carrying["passed"] is True, carrying["reason"]
         assert bare["passed"] is False
         assert bare["reason"]
         for axis in ("pitch", "roll"):
-            assert abs(proved["metrics"][f"touchdown_{axis}"]) < np.radians(5.0)
-        assert proved["metrics"]["momentum_error"] < 1e-6
-        assert proved["metrics"]["upright_at_end"] is True
+            assert abs(carrying["metrics"][f"touchdown_{axis}"]) < np.radians(5.0)
+        assert carrying["metrics"]["momentum_error"] < 1e-6
+        assert carrying["metrics"]["upright_at_end"] is True
     assert runs["back-flip", True]["metrics"]["turned_angle"] == pytest.approx(
         -2.0 * np.pi, abs=np.radians(5.0)
     )
@@ -215,39 +215,39 @@ def test_margins_are_capacity_over_demand(document, product):
         else:
             assert margin["margin"] == pytest.approx(margin["capacity"] / margin["demand"])
             kept = margin["margin"] >= 1.0 - product.case.slack
-            # A rating for hours may be exceeded for a second, and then asks for a pause.
+            # The continuous rating may be exceeded for seconds if a pause follows.
             assert kept or (margin["name"] == "rms current" and PAUSE.search(margin["note"]))
 
 
-def reached(row):
-    """Length of a hub's bore that a motor's shaft is in, chamfers of 0.5 mm left out."""
+def engagement(row):
+    """Length of the motor's shaft in the hub's bore, without chamfers of 0.5 mm [m]."""
     mount = mount_of(row, None)
     front = motor_front(mount, min(mount.rim_height_max, 0.03))
     return bond_length(row.mounting, hub_height(row.mounting), 0.5e-3, front)
 
 
 @pytest.mark.parametrize("product", ["motor"], indirect=True)
-def test_the_choice_says_what_it_looked_at(document):
+def test_the_selection_lists_all_suitable_motors(document):
     selection = document["selection"]
     masses = [entry["mass"] for entry in selection["ranking"]]
-    # What differs by less is as heavy, and the stronger goes first.
+    # Smaller differences count as equal mass, where the stronger motor comes first.
     assert (np.diff(masses) > -1e-5 * np.array(masses[1:])).all()
     assert len(masses) >= 10
     assert len({entry["motor"] for entry in selection["ranking"]}) >= 5
-    # Each motor with a gear in a rim of each of the five steels, at one incidence.
+    # Each motor is combined with a gear and five steels, at one incidence.
     assert selection["candidates"] % 5 == 0
     assert selection["candidates"] >= 5 * len({entry["motor"] for entry in selection["ranking"]})
     for task in selection["tasks"]:
         assert task["time_needed"] <= task["time_given"] * (1.0 + 1e-9)
         assert task["spin_inertia"] <= document["ocs"]["spin_inertia"] * (1.0 + 1e-9)
-    listed = {entry["motor"] for entry in selection["ranking"]}
-    fallen = {entry["motor"] for entry in selection["rejections"]}
+    ranked = {entry["motor"] for entry in selection["ranking"]}
+    rejected = {entry["motor"] for entry in selection["rejections"]}
     complete = {name: row for name, row in motors().items() if not build_gaps(row)}
-    carried = {
+    suitable = {
         name
         for name, row in complete.items()
-        if hub_joint(row.mounting, reached(row)) >= 1.5 * row.peak_torque
+        if hub_joint(row.mounting, engagement(row)) >= 1.5 * row.peak_torque
         and (row.voltage_max or row.rated_voltage) >= 24.0
     }
-    assert listed | fallen == carried < set(complete) < set(motors())
-    assert listed.isdisjoint(fallen)
+    assert ranked | rejected == suitable < set(complete) < set(motors())
+    assert ranked.isdisjoint(rejected)

@@ -1,4 +1,4 @@
-"""The questions of docs/questions.md: each command line is run and answers what the page says."""
+"""Questions of docs/questions.md: each command line gives the answer on the page."""
 
 import re
 import shlex
@@ -18,59 +18,59 @@ QUESTION = re.compile(
     re.MULTILINE | re.DOTALL,
 )
 NUMBER = re.compile(r"(?<![\w.])(\d[\d,]*(?:\.\d+)?)(?!\w)")
-"""Not those within a name, such as MN5006."""
+"""Numbers, but not those within a name such as MN5006."""
 
-ABOUT = 0.05
-"""A figure moves with the catalogue and the defaults; more than this is another answer."""
+RELATIVE = 0.05
+"""Relative tolerance: figures change with the catalogue and the defaults."""
 
-BEFORE_A_RELEASE = {
+SLOW_QUESTIONS = {
     "How can 90 g be saved?",
     "I have only 12 V and these two motors: does one do?",
     "My Go2 is kicked with 12 N s at the hip during a 0.4 m jump: which wheel and motor?",
     "Steel, and a lathe up to 120 mm: what do I turn?",
     "Which of the paper's maneuvers costs the most?",
 }
-"""They take the longest, and ask what `tests/sizing` asks of smaller problems."""
+"""Asked before a release only: they take the longest, and `tests/sizing` has smaller problems."""
 
-A_TENTH = 0.1
-"""A figure below two moves by more than its share: 0.1 deg off level."""
+ABSOLUTE = 0.1
+"""Absolute tolerance, for small figures such as 0.1 deg off level."""
 
 
 def questions():
-    for found in QUESTION.finditer(PAGE):
-        marks = [pytest.mark.exhaustive] * (found["title"] in BEFORE_A_RELEASE)
-        yield pytest.param(found, id=found["title"], marks=marks)
+    for match in QUESTION.finditer(PAGE):
+        marks = [pytest.mark.exhaustive] * (match["title"] in SLOW_QUESTIONS)
+        yield pytest.param(match, id=match["title"], marks=marks)
 
 
 def figures(text):
-    return [float(each.replace(",", "")) for each in NUMBER.findall(text)]
+    return [float(number.replace(",", "")) for number in NUMBER.findall(text)]
 
 
-def told(line, said):
-    """Whether a line of the answer was said, its words as they are and its figures about so."""
+def is_in(line, output):
+    """Whether a line of the answer is in the output, with approximately the same figures."""
     words = " ".join(line.split())
     pattern = r"\d[\d,]*(?:\.\d+)?".join(map(re.escape, NUMBER.split(words)[::2]))
     return any(
-        figures(found[1]) == pytest.approx(figures(words), rel=ABOUT, abs=A_TENTH)
-        for found in re.finditer(f"(?=({pattern}))", said)
+        figures(match[1]) == pytest.approx(figures(words), rel=RELATIVE, abs=ABSOLUTE)
+        for match in re.finditer(f"(?=({pattern}))", output)
     )
 
 
-def test_there_are_sixteen_and_none_needs_a_file_of_its_own():
+def test_there_are_sixteen_questions_without_specification_files():
     commands = [found["command"] for found in QUESTION.finditer(PAGE)]
     assert len(commands) == len(re.findall("^## ", PAGE, re.MULTILINE)) == 16
     assert not any("--spec" in command for command in commands)
-    assert {found["title"] for found in QUESTION.finditer(PAGE)} >= BEFORE_A_RELEASE
+    assert {found["title"] for found in QUESTION.finditer(PAGE)} >= SLOW_QUESTIONS
 
 
 @pytest.fixture(scope="module")
-def answers_alone():
-    """A robot is read once, and no report is written: the terminal answers."""
+def terminal_alone():
+    """Robots are read once, and no report is written."""
     robots, read = {}, size.read_specified_robot
 
-    def read_once(specified, **options):
-        key = str(specified.robot)
-        robots[key] = robots.get(key) or read(specified, **options)
+    def read_once(specification, **options):
+        key = str(specification.robot)
+        robots[key] = robots.get(key) or read(specification, **options)
         return robots[key]
 
     with pytest.MonkeyPatch.context() as patch:
@@ -80,22 +80,22 @@ def answers_alone():
 
 
 @pytest.mark.slow
-@pytest.mark.usefixtures("answers_alone", "no_files")
+@pytest.mark.usefixtures("terminal_alone", "no_files")
 @pytest.mark.parametrize("question", list(questions()))
 def test_a_question_has_its_answer(question, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    # What one change would save is asked by none.
+    # No question asks for the savings by single changes.
     monkeypatch.setattr(alternatives, "variants", lambda *_: ())
     monkeypatch.setattr(alternatives, "alternative_construction", lambda *_: ())
     if not re.search("driven by|Trade-offs to save", question["answer"]):
         monkeypatch.setattr(alternatives, "find_driving_maneuver", lambda *_: None)
     monkeypatch.setenv("COLUMNS", "200")
     (tmp_path / "examples").symlink_to(ROOT / "examples")
-    specified = re.search(r"[Ee]xit code (\d)", question["prose"] + question["after"])
-    said, code = "", 0
+    exit_code = re.search(r"[Ee]xit code (\d)", question["prose"] + question["after"])
+    output, code = "", 0
     for command in question["command"].replace("$GO2", str(GO2)).split("&&"):
         result = run(*shlex.split(command)[1:])
-        said, code = f"{said} {result.output}", result.code
-    assert code == (int(specified[1]) if specified else 0), said
-    missing = [line for line in question["answer"].splitlines() if not told(line, said)]
-    assert not missing, said
+        output, code = f"{output} {result.output}", result.code
+    assert code == (int(exit_code[1]) if exit_code else 0), output
+    missing = [line for line in question["answer"].splitlines() if not is_in(line, output)]
+    assert not missing, output

@@ -1,4 +1,4 @@
-"""The report as a browser shows it: Chromium without a screen, drawing by the processor."""
+"""The report in a browser: headless Chromium with software rendering."""
 
 import base64
 import json
@@ -8,7 +8,7 @@ from itertools import pairwise
 import pytest
 from browser import browser
 
-# One of them is enough: what differs between them is in the tests of the page.
+# One product is enough, since tests of the page cover the differences.
 pytestmark = [
     pytest.mark.slow,
     pytest.mark.parametrize("product", ["motor"], indirect=True),
@@ -28,8 +28,8 @@ def page(product):
         yield tab
 
 
-def chosen(page, name, value):
-    """Set a control as a user does; the readout then."""
+def choose(page, name, value):
+    """Set a control as a user does, and return the readout."""
     page.value(
         f"(() => {{ const it = document.getElementById('{name}'); it.value = '{value}';"
         "it.dispatchEvent(new Event('input')); it.dispatchEvent(new Event('change')); })()"
@@ -37,92 +37,92 @@ def chosen(page, name, value):
     return page.value("document.getElementById('scene-readout').textContent")
 
 
-def pressed(page, selector):
+def press(page, selector):
     page.value(f'document.querySelector("{selector}").click()')
 
 
-def seen(page):
-    """A picture of the view at rest."""
+def screenshot(page):
+    """A screenshot of the view at rest."""
     page.value("document.getElementById('robot').scrollIntoView({ behavior: 'instant' })")
     page.value(AT_REST)
     return page.call("Page.captureScreenshot", format="png")["data"]
 
 
-def test_it_is_small_and_asks_for_nothing_but_itself(page, product):
+def test_it_is_small_and_requests_nothing_else(page, product):
     report = product.folder / "report.html"
     assert report.stat().st_size < MOST_BYTES
-    asked = [each["request"]["url"] for each in page.of_kind("Network.requestWillBeSent")]
-    assert asked[0] == report.as_uri()
-    assert all(url.startswith("data:") for url in asked[1:])
+    requests = [sent["request"]["url"] for sent in page.of_kind("Network.requestWillBeSent")]
+    assert requests[0] == report.as_uri()
+    assert all(url.startswith("data:") for url in requests[1:])
 
 
-def test_it_holds_the_design_as_it_was_written(page, product):
-    held = page.value("document.getElementById('design').textContent")
-    assert json.loads(held) == json.loads((product.folder / "design.json").read_text())
+def test_it_embeds_the_design(page, product):
+    embedded = page.value("document.getElementById('design').textContent")
+    assert json.loads(embedded) == json.loads((product.folder / "design.json").read_text())
 
 
 def test_replays_are_those_of_the_simulation(page, product):
-    """At the end of a flight: what the CSV file says, and wheels only where there are some."""
-    chosen(page, "scene-choice", "1")
-    said = chosen(page, "scene-time", "0.3")
-    pitch, roll = map(float, re.search(r"pitch (-?[\d.]+)°, roll (-?[\d.]+)°", said).groups())
+    """At the end of a flight the readout has the figures of the CSV; wheels have rpm."""
+    choose(page, "scene-choice", "1")
+    readout = choose(page, "scene-time", "0.3")
+    pitch, roll = map(float, re.search(r"pitch (-?[\d.]+)°, roll (-?[\d.]+)°", readout).groups())
     heading, *rows = (product.folder / "validation" / "drop_with_ocs.csv").read_text().split()
-    at = dict(zip(heading.split(","), map(float, rows[60].split(",")), strict=True))
-    assert at["time_s"] == pytest.approx(0.3)
+    row = dict(zip(heading.split(","), map(float, rows[60].split(",")), strict=True))
+    assert row["time_s"] == pytest.approx(0.3)
     assert (pitch, roll) == (
-        pytest.approx(at["pitch_rad"] * 57.29578, abs=0.15),
-        pytest.approx(at["roll_rad"] * 57.29578, abs=0.15),
+        pytest.approx(row["pitch_rad"] * 57.29578, abs=0.15),
+        pytest.approx(row["roll_rad"] * 57.29578, abs=0.15),
     )
-    assert "rpm" in said
-    assert "rpm" not in chosen(page, "scene-device", "without")
-    assert chosen(page, "scene-device", "both").count("pitch") == 2
-    chosen(page, "scene-device", "with")
+    assert "rpm" in readout
+    assert "rpm" not in choose(page, "scene-device", "without")
+    assert choose(page, "scene-device", "both").count("pitch") == 2
+    choose(page, "scene-device", "with")
 
 
-def test_the_view_shows_what_is_chosen(page):
-    chosen(page, "scene-choice", "")
-    views = [seen(page)]
+def test_the_view_follows_the_controls(page):
+    choose(page, "scene-choice", "")
+    views = [screenshot(page)]
     for look in ("device", "0 0", "-1.5708 0", "3.1416 1.5"):
-        pressed(page, f"[data-look='{look}']")
-        views.append(seen(page))
-    pressed(page, "#scene-fade")
-    views.append(seen(page))
-    pressed(page, "#scene-fade")
-    pressed(page, "[data-look='home']")
+        press(page, f"[data-look='{look}']")
+        views.append(screenshot(page))
+    press(page, "#scene-fade")
+    views.append(screenshot(page))
+    press(page, "#scene-fade")
+    press(page, "[data-look='home']")
     assert len(set(views)) == len(views)
 
 
-def test_it_plays_pauses_and_moves_the_cursor_of_its_charts(page):
-    pressed(page, "[data-replay='0']")
-    now = "Number(document.getElementById('scene-time').value)"
-    page.wait(f"{now} > 0.02")
+def test_play_pause_and_the_cursor_of_the_charts(page):
+    press(page, "[data-replay='0']")
+    time_value = "Number(document.getElementById('scene-time').value)"
+    page.wait(f"{time_value} > 0.02")
     assert page.value("document.getElementById('scene-play').textContent") == "Pause"
-    pressed(page, "#scene-play")
-    stopped = page.value(now)
+    press(page, "#scene-play")
+    paused = page.value(time_value)
     page.value(AT_REST)
-    assert page.value(now) == stopped
-    drawn = (
+    assert page.value(time_value) == paused
+    cursors = (
         "[...document.querySelectorAll(\"[data-flight='{}'] .cursor\")]"
         ".map((line) => line.getAttribute('d'))"
     )
-    assert all(page.value(drawn.format(0)))
-    assert not any(page.value(drawn.format(1)))
+    assert all(page.value(cursors.format(0)))
+    assert not any(page.value(cursors.format(1)))
 
 
-def test_the_keyboard_is_enough(page):
+def test_the_view_is_operable_by_keyboard(page):
     page.value("document.getElementById('viewer').focus()")
-    first = seen(page)
+    first = screenshot(page)
     for key in ("ArrowLeft", "ArrowUp", "+"):
         page.call("Input.dispatchKeyEvent", type="keyDown", key=key)
-    turned = seen(page)
+    rotated = screenshot(page)
     page.call("Input.dispatchKeyEvent", type="keyDown", key=" ")
     playing = page.value("document.getElementById('scene-play').getAttribute('aria-pressed')")
     page.call("Input.dispatchKeyEvent", type="keyDown", key=" ")
-    assert first != turned
+    assert first != rotated
     assert playing == "true"
 
 
-def test_everything_has_a_name_for_those_who_do_not_see_it(page):
+def test_every_element_has_an_accessible_name(page):
     nameless = page.value(
         "[...document.querySelectorAll('button, select, input, summary, a, img, canvas, svg')]"
         ".filter((it) =>"
@@ -137,7 +137,7 @@ def test_everything_has_a_name_for_those_who_do_not_see_it(page):
     assert all(after - before <= 1 for before, after in pairwise(levels))
 
 
-def test_it_fits_a_telephone(page):
+def test_it_fits_a_phone(page):
     page.size(390, 800)
     try:
         assert page.value("document.documentElement.scrollWidth") <= 390
@@ -145,7 +145,7 @@ def test_it_fits_a_telephone(page):
         page.size(1000, 700)
 
 
-def test_printed_it_has_the_picture_in_place_of_the_view(page, tmp_path):
+def test_the_printed_page_has_the_picture_instead_of_the_view(page, tmp_path):
     page.call("Emulation.setEmulatedMedia", media="print")
     look = "getComputedStyle(document.querySelector('.view {}')).{}"
     try:
@@ -158,14 +158,14 @@ def test_printed_it_has_the_picture_in_place_of_the_view(page, tmp_path):
     assert 2 <= printed.count(b"/Type /Page\n") <= 6
 
 
-def test_after_all_that_the_console_is_empty(page):
-    """Last, for it is about all of the above."""
+def test_the_console_is_empty_after_all_tests(page):
+    """This test is the last since it concerns all tests above."""
     assert (
         page.of_kind("Runtime.exceptionThrown", "Log.entryAdded", "Runtime.consoleAPICalled") == []
     )
 
 
-def test_without_webgl_the_picture_stays_and_says_why(product):
+def test_without_webgl_the_picture_stays_with_a_reason(product):
     with browser("--disable-3d-apis") as tab:
         tab.open(product.folder / "report.html")
         tab.wait("document.getElementById('viewer-note').textContent.includes('picture')")

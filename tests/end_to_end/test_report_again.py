@@ -1,4 +1,4 @@
-"""The report and its figures from `export`, as `docs/report.md` shows it."""
+"""The report and its figures by `export`, as in `docs/report.md`."""
 
 import json
 import re
@@ -22,8 +22,8 @@ DOC = (Path(__file__).parents[2] / "docs" / "report.md").read_text()
 pytestmark = pytest.mark.parametrize("product", ["motor"], indirect=True)
 
 
-def shown(language):
-    """The blocks of the page in a language."""
+def blocks(language):
+    """Code blocks of the page in a language."""
     return re.findall(rf"^```{language}\n(.*?)^```", DOC, re.MULTILINE | re.DOTALL)
 
 
@@ -35,10 +35,10 @@ def design(product, tmp_path, monkeypatch):
 
 @pytest.mark.slow
 def test_the_commands_of_the_page_work(design, capsys):
-    for line in "".join(shown("sh")).splitlines():
+    for line in "".join(blocks("sh")).splitlines():
         result = run(*line.replace("--samples 200", "--samples 8").split()[1:])
         assert result.code == 0, result.output
-    exec(shown("python")[0], {})
+    exec(blocks("python")[0], {})
     assert float(capsys.readouterr().out) == read_design(design / "design.json").ocs.incidence
     pictures = {Path(name).suffix for name in files_in("figures-as-png/figures")}
     assert pictures == {".svg", ".png"}
@@ -48,7 +48,7 @@ def test_the_commands_of_the_page_work(design, capsys):
 
 
 @pytest.mark.slow
-def test_a_report_made_again_has_its_view_and_its_time_series_but_no_replay(design):
+def test_an_exported_report_has_view_and_time_series_but_no_replay(design):
     assert run("export", design, "-o", "again", "-q", "--formats", "report").code == 0
     again = files_in("again")
     assert set(again) == {"design.json", "report.html"}
@@ -63,7 +63,7 @@ def test_a_report_made_again_has_its_view_and_its_time_series_but_no_replay(desi
 
 
 @pytest.mark.slow
-def test_in_its_own_folder_everything_else_stays(design):
+def test_a_report_into_the_folder_of_the_design_keeps_other_files(design):
     before = files_in(design)
     assert run("export", design, "-o", design, "--force", "-q", "--formats", "report").code == 0
     after = files_in(design)
@@ -71,33 +71,33 @@ def test_in_its_own_folder_everything_else_stays(design):
     page = Page(after["report.html"].decode())
     files = json.loads(after["design.json"])["files"]
     assert json.loads(page.inside["design"])["files"] == files
-    told = after["report.html"].decode()
-    assert all(digest in told for digest in files.values())
+    html = after["report.html"].decode()
+    assert all(digest in html for digest in files.values())
 
 
-def test_flights_come_from_their_files_as_they_were_flown(product):
+def test_flights_of_the_story_are_read_from_their_files(product):
     folder = product.folder
     story = story_in([Path("/nowhere"), folder], read_design(folder / "design.json"))
-    assert [(each.scenario, each.ocs) for each in story.flights] == [
+    assert [(flight.scenario, flight.ocs) for flight in story.flights] == [
         (run.scenario, run.ocs) for run in story.design.validation
     ]
     for flight, record in zip(story.flights, story.design.validation, strict=True):
         assert flight.touchdown == pytest.approx(record.metrics["touchdown_time"], abs=0.006)
 
 
-def test_a_campaign_that_cannot_be_read_is_told(tmp_path, product):
+def test_an_unreadable_campaign_is_an_error(tmp_path, product):
     assert read_campaign([product.folder, tmp_path]) is None
     (tmp_path / "monte_carlo.json").write_text("{")
     with pytest.raises(OcsError, match=r"monte_carlo\.json"):
         read_campaign([tmp_path])
 
 
-def test_a_campaign_that_was_added_comes_before_the_certificates(tmp_path, product):
+def test_samples_precede_the_certificate(tmp_path, product):
     for name, samples in (("certificate", 40), ("samples", 20)):
-        told = share(samples, samples)
+        success = share(samples, samples)
         record = MonteCarloRecord(
             seed=0, samples=samples, asked=samples, confidence=CONFIDENCE, reality={},
-            success=told, scenarios=(),
+            success=success, scenarios=(),
         )  # fmt: skip
         (tmp_path / name).mkdir()
         (tmp_path / name / "monte_carlo.json").write_bytes(to_json(record))

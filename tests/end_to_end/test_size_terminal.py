@@ -1,4 +1,4 @@
-"""`size` as it is read: in terminals and pipes, as JSON, on any number of threads."""
+"""Output of `size` in terminals and pipes and as JSON, on any number of threads."""
 
 import os
 import re
@@ -14,14 +14,14 @@ from ocs_design.device.records.design import read_design
 from ocs_design.report.text.size import print_design, print_outcome, print_solution
 
 SGR = re.compile(r"\x1b\[[0-9;]*m")
-SIZED_AGAIN = pytest.mark.parametrize(
+REPEATED = pytest.mark.parametrize(
     "product", [pytest.param("motor", marks=pytest.mark.exhaustive), "no motor"], indirect=True
 )
 
 
 @pytest.fixture(scope="session")
 def wide(product, tmp_path_factory):
-    """Once more, on a single processor, with two threads in linear algebra, for 120 columns."""
+    """The product again, on one processor with two threads in linear algebra, for 120 columns."""
     parent = tmp_path_factory.mktemp("wide")
     allowed = os.sched_getaffinity(0)
     with pytest.MonkeyPatch.context() as patch, threadpool_limits(limits=2, user_api="blas"):
@@ -30,22 +30,22 @@ def wide(product, tmp_path_factory):
         patch.delenv("FORCE_COLOR", raising=False)
         os.sched_setaffinity(0, {min(allowed)})
         try:
-            said = run("size", SOLO12, *product.case.options)
+            result = run("size", SOLO12, *product.case.options)
         finally:
             os.sched_setaffinity(0, allowed)
-    return Product(product.case, said, parent / "solo12-ocs")
+    return Product(product.case, result, parent / "solo12-ocs")
 
 
 @pytest.mark.slow
-@SIZED_AGAIN
-def test_the_same_run_writes_the_same_bytes_on_any_number_of_threads(product, wide):
+@REPEATED
+def test_files_do_not_depend_on_the_number_of_threads(product, wide):
     for name in ("design.json", *FILES):
         assert (product.folder / name).read_bytes() == (wide.folder / name).read_bytes(), name
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("product", "width", "which"),
+    ("product", "width", "fixture"),
     [
         ("motor", 80, "product"),
         ("no motor", 80, "product"),
@@ -54,29 +54,29 @@ def test_the_same_run_writes_the_same_bytes_on_any_number_of_threads(product, wi
     ],
     indirect=["product"],
 )
-def test_the_report_fits_its_terminal(request, width, which, product):
-    said, case = request.getfixturevalue(which).output, product.case
-    assert "\x1b" not in said.stdout + said.stderr
-    assert max(map(len, said.stderr.splitlines())) <= width
-    lines = said.stdout.splitlines()
+def test_the_report_fits_its_terminal(request, width, fixture, product):
+    result, case = request.getfixturevalue(fixture).result, product.case
+    assert "\x1b" not in result.stdout + result.stderr
+    assert max(map(len, result.stderr.splitlines())) <= width
+    lines = result.stdout.splitlines()
     assert max(map(len, lines)) <= width
     headings = [line for line in lines if re.match(r"[A-Z]", line)]
     assert len(headings) == len(set(headings)) == case.headings
     for word in ("2.5 kg", "Assumed", "r_max", "back-flip", *case.words):
-        assert word in said.output
-    # The verdict comes first and last.
+        assert word in result.output
+    # The verdict is the first and the last line.
     assert re.search(r"  ·  level 3 of 3  ·  stands 3 of 3", lines[0])
-    last = lines[-1] if said.code == 0 else "".join(lines[-6:])
+    last = lines[-1] if result.code == 0 else "".join(lines[-6:])
     assert lines[0] in last
 
 
-def test_the_story_takes_little_more_than_one_screen(product):
-    """Of 45 lines, on a terminal of 80 columns."""
+def test_the_output_is_little_more_than_one_screen(product):
+    """A screen of 45 lines with 80 columns."""
     assert len(product.result.stdout.splitlines()) <= 58
 
 
 @pytest.mark.parametrize("width", [60, 80, 120])
-def test_the_whole_report_fits_its_terminal(width, product):
+def test_the_verbose_output_fits_its_terminal(width, product):
     console = Console(file=StringIO(), width=width)
     design = read_design(product.folder / "design.json")
     print_design(console, design)
@@ -94,14 +94,14 @@ def test_the_whole_report_fits_its_terminal(width, product):
 
 
 @pytest.mark.slow
-@SIZED_AGAIN
-def test_a_wider_terminal_breaks_no_more_lines(product, wide):
-    assert len(wide.output.stdout.splitlines()) <= len(product.result.stdout.splitlines())
+@REPEATED
+def test_a_wider_terminal_needs_no_more_lines(product, wide):
+    assert len(wide.result.stdout.splitlines()) <= len(product.result.stdout.splitlines())
 
 
 @pytest.mark.slow
-@SIZED_AGAIN
-def test_json_is_the_artefact_and_nothing_else(product, tmp_path, monkeypatch):
+@REPEATED
+def test_json_output_is_exactly_the_design_file(product, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     result = run("size", SOLO12, *product.case.options, "--json")
     assert (result.code, result.stderr) == (0, "")
@@ -109,21 +109,21 @@ def test_json_is_the_artefact_and_nothing_else(product, tmp_path, monkeypatch):
     assert result.stdout == (tmp_path / "solo12-ocs" / "design.json").read_text()
 
 
-WORDS, ERROR = ("inspect", SOLO12), ("inspect", "nowhere.urdf")
+TEXT_OUTPUT, ERROR_OUTPUT = ("inspect", SOLO12), ("inspect", "nowhere.urdf")
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("arguments", "option", "variables"),
     [
-        (WORDS, ("--no-color",), {}),
-        (ERROR, (), {"NO_COLOR": "1"}),
-        (WORDS, (), {"NO_COLOR": "1"}),
-        (ERROR, ("--no-color",), {}),
+        (TEXT_OUTPUT, ("--no-color",), {}),
+        (ERROR_OUTPUT, (), {"NO_COLOR": "1"}),
+        (TEXT_OUTPUT, (), {"NO_COLOR": "1"}),
+        (ERROR_OUTPUT, ("--no-color",), {}),
     ],
 )
 def test_a_terminal_gets_colour_unless_it_is_declined(arguments, option, variables):
-    code, plain = run_in_terminal(*arguments)
-    assert SGR.search(plain)
-    declined = run_in_terminal(*arguments, *option, **variables)
-    assert declined == (code, SGR.sub("", plain))
+    code, colored = run_in_terminal(*arguments)
+    assert SGR.search(colored)
+    without_color = run_in_terminal(*arguments, *option, **variables)
+    assert without_color == (code, SGR.sub("", colored))

@@ -1,4 +1,4 @@
-"""Slips of the hand: the table of docs/hostile.md is what is typed here and what is said."""
+"""Typing mistakes: commands and messages of the table in docs/hostile.md."""
 
 import re
 import shlex
@@ -13,8 +13,8 @@ ROWS = re.findall(
 SOLO12_TEXT = Path(SOLO12).read_text()
 
 
-def times(factor, pattern):
-    """Solo12's file with all numbers of the attributes that match times a factor."""
+def scaled_file(factor, pattern):
+    """Solo12's file with the numbers of matching attributes multiplied by a factor."""
 
     def scaled(match):
         numbers = (repr(factor * float(number)) for number in match[2].split())
@@ -25,8 +25,8 @@ def times(factor, pattern):
 
 FILES = {
     "solo12.urdf": SOLO12_TEXT,
-    "grams.urdf": times(1000.0, '<mass value="'),
-    "millimetres.urdf": times(1000.0, '<origin [^>]*xyz="'),
+    "grams.urdf": scaled_file(1000.0, '<mass value="'),
+    "millimetres.urdf": scaled_file(1000.0, '<origin [^>]*xyz="'),
     "cut.urdf": SOLO12_TEXT[:3000],
     "trunk.stl": "solid trunk\nendsolid",
     "solo12.srdf": '<robot name="solo12"/>',
@@ -40,14 +40,14 @@ FILES = {
 
 
 @pytest.fixture
-def bench(tmp_path, monkeypatch):
-    """A folder with a user's files, where nothing can be sized."""
+def user_folder(tmp_path, monkeypatch):
+    """A folder with files of a user, where any sizing fails the test."""
 
-    def computed(*_arguments, **_options):
-        raise AssertionError("a slip is recognised before anything is computed")
+    def must_not_run(*_arguments, **_options):
+        raise AssertionError("a mistake is recognised before anything is computed")
 
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("ocs_design.workflows.rounds.design_device", computed)
+    monkeypatch.setattr("ocs_design.workflows.rounds.design_device", must_not_run)
     for name, content in FILES.items():
         (tmp_path / name).parent.mkdir(exist_ok=True)
         (tmp_path / name).write_text(content)
@@ -55,19 +55,19 @@ def bench(tmp_path, monkeypatch):
     return tmp_path
 
 
-@pytest.mark.parametrize(("typed", "code", "words"), ROWS, ids=[row[0] for row in ROWS])
-def test_what_is_said_of_a_slip(bench, typed, code, words):
-    if ".xacro" in typed:
+@pytest.mark.parametrize(("arguments", "code", "words"), ROWS, ids=[row[0] for row in ROWS])
+def test_a_mistake_gives_the_message_of_the_page(user_folder, arguments, code, words):
+    if ".xacro" in arguments:
         pytest.importorskip("xacro")
-    before = all_paths_in(bench)
-    result = run(*shlex.split(typed), "--json")
+    before = all_paths_in(user_folder)
+    result = run(*shlex.split(arguments), "--json")
     error = result.document["error"]
-    said = " ".join([error["message"], *error.get("problems", ()), error["hint"]]).split()
+    text = " ".join([error["message"], *error.get("problems", ()), error["hint"]])
     assert result.code == int(code)
-    for words_together in words.split(" ... "):
-        assert words_together in " ".join(said)
-    assert all_paths_in(bench) == before
+    for part in words.split(" ... "):
+        assert part in " ".join(text.split())
+    assert all_paths_in(user_folder) == before
 
 
-def test_the_table_is_read():
+def test_the_table_has_all_its_rows():
     assert len(ROWS) > 55

@@ -1,4 +1,4 @@
-"""Streams that are closed or full, and names that are no text."""
+"""Closed and full streams, file names that are not text, and output in pipes."""
 
 import os
 import re
@@ -27,28 +27,28 @@ UNSIZED = ("size", *BY_HAND, *BOUND, "--no-validate", "-o", "out")
 
 
 def shell(line, *arguments):
-    """With the program as `"$@"`."""
+    """The result of a shell command in which `"$@"` is the program with the arguments."""
     return subprocess.run(
         ["sh", "-c", line, "sh", *PROGRAM, *arguments], capture_output=True, text=True, check=False
     )
 
 
 @pytest.mark.slow
-def test_closed_streams_change_nothing(folder):
-    """What is printed to them must not end up in the files that are opened in their place."""
-    done = shell('"$@" <&- >&- 2>&-', *UNSIZED)
-    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+def test_closed_streams_do_not_change_the_files(folder):
+    """Printed text must not end up in files that are opened with their descriptors."""
+    process = shell('"$@" <&- >&- 2>&-', *UNSIZED)
+    assert (process.returncode, process.stdout, process.stderr) == (0, "", "")
     assert run("size", *UNSIZED[1:-1], "open", "-q").code == 0
     for name in ("snippets/ocs.urdf", "cad/bill_of_materials.csv"):
         assert (folder / "out" / name).read_bytes() == (folder / "open" / name).read_bytes()
 
 
 @has_full_device
-def test_a_full_standard_output_is_told(folder):
-    done = shell(f'"$@" > {FULL}', "inspect", *BY_HAND, "--json")
-    assert done.returncode == 3
-    assert "No space left on device" in done.stderr
-    assert "Traceback" not in done.stderr
+def test_a_full_standard_output_is_an_error(folder):
+    process = shell(f'"$@" > {FULL}', "inspect", *BY_HAND, "--json")
+    assert process.returncode == 3
+    assert "No space left on device" in process.stderr
+    assert "Traceback" not in process.stderr
 
 
 @pytest.mark.slow
@@ -59,7 +59,7 @@ def test_a_full_standard_error_is_an_error(folder):
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="names are text there")
-def test_a_name_that_is_no_text_is_refused_at_once(folder):
+def test_a_file_name_that_is_not_text_is_refused(folder):
     name = os.fsdecode(b"ro\xffbot.urdf")
     (folder / name).write_bytes(b"")
     result = run("size", name, *BOUND, "--json")
@@ -70,17 +70,17 @@ def test_a_name_that_is_no_text_is_refused_at_once(folder):
 
 @pytest.mark.slow
 def test_without_home_and_locale(folder):
-    """What is no locale counts as "C", whose text is ASCII."""
-    bare = {"LC_ALL": "nowhere.UTF-8", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}
-    kept = {name: os.environ[name] for name in ("PATH", "PYTHONPATH") if name in os.environ}
-    done = subprocess.run(
-        [*PROGRAM, "inspect", SOLO12], env=bare | kept, capture_output=True, check=False
+    """An unknown locale counts as "C", whose text is ASCII."""
+    locale = {"LC_ALL": "nowhere.UTF-8", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}
+    inherited = {name: os.environ[name] for name in ("PATH", "PYTHONPATH") if name in os.environ}
+    process = subprocess.run(
+        [*PROGRAM, "inspect", SOLO12], env=locale | inherited, capture_output=True, check=False
     )
-    assert (done.returncode, done.stderr) == (0, b"")
-    assert b"2.5" in done.stdout
+    assert (process.returncode, process.stderr) == (0, b"")
+    assert b"2.5" in process.stdout
 
 
-def test_signals_that_are_ignored_stay_so(monkeypatch):
+def test_ignored_signals_stay_ignored(monkeypatch):
     """As under `nohup`."""
     handlers = {signal.SIGHUP: signal.SIG_IGN}
     monkeypatch.setattr(signal, "getsignal", lambda number: handlers.get(number, signal.SIG_DFL))
@@ -100,42 +100,46 @@ ANSWERS = [
     (("export", "DESIGN", "-o", "again", "--force", "--formats", "snippets"), "snippets/"),
     (("validate", "DESIGN"), "level 1 of 1"),
     pytest.param(("pareto", SOLO12, "--points", "2", *ONE_MOTOR), "mass", marks=pytest.mark.slow),
-    # Of `--json` alone: `test_examination.py`.
+    # Its `--json` alone is in `test_examination.py`.
     pytest.param(("doctor",), "numpy", marks=pytest.mark.exhaustive),
 ]
 PROGRESS = re.compile(r" *[\d.]+ s  \S.*|warning: .*")
 IN_A_PROCESS = ("inspect", "doctor")
-"""Commands that are started; the others run in the tests' own process."""
+"""Commands that run in processes of their own; the others run within the tests."""
 FRAMES = re.compile(r"[\u2500-\u259f\u2800-\u28ff\x1b]")
 
 
 def in_a_pipe(command, *options):
-    """Its exit code and both streams, whose width nothing says."""
+    """Result of a command whose output is a pipe of unknown width."""
     if command in IN_A_PROCESS:
         return run_process(command, *options, env=environment())
     return run(command, *options, piped=True)
 
 
-@pytest.mark.parametrize(("arguments", "word"), ANSWERS)
-def test_answers_go_to_standard_output_and_all_else_beside_it(folder, by_hand, arguments, word):
-    """In a pipe without frames, colours or broken lines; one document with --json."""
-    typed = [str(by_hand) if each == "DESIGN" else each for each in arguments]
-    piped = in_a_pipe(*typed)
+@pytest.mark.parametrize(("arguments", "expected_word"), ANSWERS)
+def test_answers_go_to_standard_output_and_messages_to_standard_error(
+    folder, by_hand, arguments, expected_word
+):
+    """A pipe gets no frames, colours or broken lines, and one document with --json."""
+    command = [
+        str(by_hand) if expected_word == "DESIGN" else expected_word for expected_word in arguments
+    ]
+    piped = in_a_pipe(*command)
     assert piped.code == 0, piped.output
-    assert word in piped.stdout
+    assert expected_word in piped.stdout
     assert not FRAMES.search(piped.stdout + piped.stderr)
     assert not [line for line in piped.stdout.splitlines() if line != line.rstrip()]
     assert all(PROGRESS.fullmatch(line) for line in piped.stderr.splitlines())
-    as_json = run(*typed, "--json")
+    as_json = run(*command, "--json")
     assert (as_json.code, as_json.stderr) == (0, "")
     assert as_json.document
     if arguments[0] not in {"inspect", "bound", "catalogue", "doctor"}:
-        quiet = run(*typed, "-q")
+        quiet = run(*command, "-q")
         assert (quiet.code, quiet.stdout, quiet.stderr) == (0, "", "")
 
 
 def test_an_error_in_a_pipe_is_plain_lines(folder):
-    said = run_process("inspect", "nowhere.urdf", env=environment())
-    assert (said.code, said.stdout) == (3, "")
-    assert re.match(r"error: .*nowhere\.urdf", said.stderr)
-    assert not FRAMES.search(said.stderr)
+    result = run_process("inspect", "nowhere.urdf", env=environment())
+    assert (result.code, result.stdout) == (3, "")
+    assert re.match(r"error: .*nowhere\.urdf", result.stderr)
+    assert not FRAMES.search(result.stderr)
