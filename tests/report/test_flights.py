@@ -31,17 +31,17 @@ from ocs_design.simulation.verdict import attitude_error_at_touchdown
 LEVEL = {"roll_swing": 0.0, "final_roll": 0.0, "final_wheel_speed": 0.0}
 
 
-def run(scenario="kerb", *, ocs=True, swing=5.0, final=0.0, speed=0.0, **told):
-    """Angles in degrees, speed over the drive's top speed; other fields and metrics as `told`."""
+def run(scenario="kerb", *, ocs=True, swing=5.0, final=0.0, speed=0.0, **fields):
+    """Angles in degrees, speed relative to the no-load speed, other fields and metrics by name."""
     figures = {
         "pitch_swing": np.radians(swing),
         "final_pitch": np.radians(final),
         "final_wheel_speed": speed * design().ocs.motor.no_load_speed,
     }
-    record = {"passed": True, "reason": "as told", "note": "", "can_stand": True}
-    record |= {name: told.pop(name) for name in [*record, "level", "stands"] if name in told}
+    record = {"passed": True, "reason": "reason", "note": "", "can_stand": True}
+    record |= {name: fields.pop(name) for name in [*record, "level", "stands"] if name in fields}
     return ValidationRecord(
-        scenario=scenario, ocs=ocs, metrics={**LEVEL, **figures, **told}, **record
+        scenario=scenario, ocs=ocs, metrics={**LEVEL, **figures, **fields}, **record
     )
 
 
@@ -49,45 +49,47 @@ def remarks(*runs):
     return list(flight_remarks(replace(design(), validation=runs)))
 
 
-@pytest.mark.parametrize(("ratio", "told"), [(1.109, "(+10.9%)"), (0.9, "(-10.0%)"), (1.02, "")])
-def test_a_jump_that_is_not_as_high_as_asked_is_told(ratio, told):
-    """The back-flip rose by 1.109 m for 1 m, and nothing said so."""
-    made = design()
+@pytest.mark.parametrize(
+    ("ratio", "deviation"), [(1.109, "(+10.9%)"), (0.9, "(-10.0%)"), (1.02, "")]
+)
+def test_a_jump_of_another_height_than_specified_has_a_remark(ratio, deviation):
+    """Once the back-flip rose by 1.109 m instead of 1 m without a remark."""
+    original = design()
     jumps = (ManeuverRecord.of(FLIP),)
-    asked = replace(made, requirement=replace(made.requirement, maneuvers=jumps))
-    flown = [run("flip", rise=ratio * FLIP.jump_height), run("flip", ocs=False, rise=9.0)]
-    said = jump_remark(replace(asked, validation=flown))
-    assert told in said
-    assert bool(said) is bool(told)
+    specified = replace(original, requirement=replace(original.requirement, maneuvers=jumps))
+    runs = [run("flip", rise=ratio * FLIP.jump_height), run("flip", ocs=False, rise=9.0)]
+    remark = jump_remark(replace(specified, validation=runs))
+    assert deviation in remark
+    assert bool(remark) is bool(deviation)
 
 
-def test_a_good_landing_is_not_minded():
+def test_a_good_landing_has_no_remark():
     assert remarks(run(final=-4.0), run(ocs=False, swing=90.0, final=90.0, passed=False)) == []
 
 
-@pytest.mark.parametrize(("without", "told"), [(30.6, True), (52.0, False)])
-def test_a_landing_that_is_worse_with_the_device_is(without, told):
-    found = remarks(run(swing=52.7), run(ocs=False, swing=without))
-    assert [each.endswith("kerb 52.7 deg, 30.6 deg without") for each in found] == [True] * told
+@pytest.mark.parametrize(("without", "remarked"), [(30.6, True), (52.0, False)])
+def test_a_landing_that_is_worse_with_the_device_has_a_remark(without, remarked):
+    texts = remarks(run(swing=52.7), run(ocs=False, swing=without))
+    assert [text.endswith("kerb 52.7 deg, 30.6 deg without") for text in texts] == [True] * remarked
 
 
-def test_all_that_end_off_level_are_told_in_one_line():
-    (found,) = remarks(run(final=-15.5), run("drop", final=12.9), run("flip", final=1.0))
-    assert "ends leaning: kerb 15.5 deg, drop 12.9 deg" in found
+def test_one_remark_names_all_flights_that_end_leaning():
+    (remark,) = remarks(run(final=-15.5), run("drop", final=12.9), run("flip", final=1.0))
+    assert "ends leaning: kerb 15.5 deg, drop 12.9 deg" in remark
 
 
-def test_standing_that_is_not_judged_is_minded_though_the_flight_passes():
+def test_standing_that_is_not_judged_has_a_remark_though_the_flight_passes():
     reason = "touches down at pitch 0.7, roll 0.0 deg; standing is not judged: ends at pitch -77.0"
     assert remarks(run(can_stand=False, final=-77.0, reason=reason)) == [f"kerb, with: {reason}"]
 
 
-def test_wheels_that_are_left_at_their_top_speed_help_no_more():
-    (found,) = remarks(run(speed=0.97), run("drop", speed=0.5))
-    assert found.startswith("kerb: a wheel ends at ")
-    assert "--desaturate" in found
+def test_wheels_that_end_near_their_top_speed_have_a_remark():
+    (remark,) = remarks(run(speed=0.97), run("drop", speed=0.5))
+    assert remark.startswith("kerb: a wheel ends at ")
+    assert "--desaturate" in remark
 
 
-def test_one_note_about_several_flights_is_told_once():
+def test_equal_notes_of_several_flights_are_one_remark():
     note = "starts at lift-off: the leg stands on a sole"
     assert remarks(run(note=note), run("drop", note=note)) == [f"kerb, drop: {note}"]
 
@@ -101,15 +103,15 @@ def test_a_row_is_named_by_its_scenario_or_by_the_device_alone():
     assert [row[1:] for row in many.rows] == [row[1:] for row in one.rows]
 
 
-LASTING = {"lift_off_time": 0.0, "touchdown_time": 1.0}
+AIRBORNE = {"lift_off_time": 0.0, "touchdown_time": 1.0}
 
 
 DROP = Drop(name="drop", height=1.0, pitch=0.5)
 FLIP = Flip(name="flip", jump_height=0.5, duration=0.5, angle=2.0 * np.pi)
 
 
-def turn(**asked):
-    return TurnTo(name="turn", duration=0.5, **asked)
+def turn(**options):
+    return TurnTo(name="turn", duration=0.5, **options)
 
 
 @pytest.mark.parametrize(
@@ -124,34 +126,34 @@ def turn(**asked):
         (turn(pitch=0.5, end=End.AT_REST), "pass    2.0 deg/s, heading 90.0"),
     ],
 )
-def test_the_angle_beside_a_verdict_is_the_one_that_it_rests_on(maneuver, words):
-    """Of a tilted end it is that of the verticals: 3 and 4 deg at right angles make 5."""
-    landed = {"touchdown_roll": np.radians(-4.0), "touchdown_pitch": np.radians(3.0)}
-    turned = {
+def test_the_short_verdict_has_the_angle_of_its_criterion(maneuver, words):
+    """For a tilted end the angle between the verticals: 3 and 4 deg at right angles make 5."""
+    attitude = {"touchdown_roll": np.radians(-4.0), "touchdown_pitch": np.radians(3.0)}
+    rotation = {
         "turned_angle": -2.0 * np.pi,
         "heading_drift": np.pi / 2.0,
         "touchdown_rate": np.radians(2.0),
     }
-    assert short_verdict(run(**LASTING, **landed, **turned), maneuver).text == words
+    assert short_verdict(run(**AIRBORNE, **attitude, **rotation), maneuver).text == words
 
 
 @pytest.mark.parametrize(
     ("roll", "pitch", "words"), [(4.9, -4.9, "pass    4.9"), (-5.1, 0.0, "FAIL    5.1")]
 )
-def test_beside_a_landing_is_the_larger_angle_as_the_rule_of_level_has_it(roll, pitch, words):
-    landed = {"touchdown_roll": np.radians(roll), "touchdown_pitch": np.radians(pitch)}
-    metrics = SimpleNamespace(**landed)
+def test_the_short_verdict_of_a_landing_has_the_larger_angle(roll, pitch, words):
+    attitude = {"touchdown_roll": np.radians(roll), "touchdown_pitch": np.radians(pitch)}
+    metrics = SimpleNamespace(**attitude)
     level = turn(yaw=np.pi / 2.0)
     for maneuver in (DROP, level):
         passed = attitude_error_at_touchdown(metrics, maneuver) <= LANDING_TOLERANCE
-        record = run(**LASTING, **landed, heading_drift=0.0, passed=passed)
+        record = run(**AIRBORNE, **attitude, heading_drift=0.0, passed=passed)
         assert short_verdict(record, maneuver).text.removesuffix(", heading 0.0") == words
 
 
-def test_who_ends_leaning_is_told_the_angle_of_the_verticals():
-    """Of 31.5 deg of roll and pitch: acos(cos(31.5 deg)^2); their root sum square is 44.5 deg."""
-    (found,) = remarks(run(final=31.5, final_roll=np.radians(31.5)))
-    assert "ends leaning: kerb 43.4 deg (more than 45 deg would be a fall)" in found
+def test_the_lean_is_the_angle_of_the_verticals():
+    """Roll and pitch of 31.5 deg make acos(cos(31.5 deg)^2); the root sum square is 44.5 deg."""
+    (remark,) = remarks(run(final=31.5, final_roll=np.radians(31.5)))
+    assert "ends leaning: kerb 43.4 deg (more than 45 deg would be a fall)" in remark
 
 
 def test_a_robot_that_rolls_over_swings_by_more_than_one_that_does_not():
@@ -161,12 +163,15 @@ def test_a_robot_that_rolls_over_swings_by_more_than_one_that_does_not():
     assert short_verdict(shoved, None).text == "pass  360.0 swing"
 
 
-def test_a_robot_on_a_pivot_touches_nothing_down():
-    flown = run(**LASTING, level=True, stands=True)
-    held = run("balance", **LASTING, level=None, stands=True)
-    heads = [flight_table(runs).columns[2].name for runs in ([flown], [held], [flown, held])]
+def test_flights_about_a_pivot_have_no_touchdown_in_the_headings():
+    in_flight = run(**AIRBORNE, level=True, stands=True)
+    on_pivot = run("balance", **AIRBORNE, level=None, stands=True)
+    heads = [
+        flight_table(runs).columns[2].name
+        for runs in ([in_flight], [on_pivot], [in_flight, on_pivot])
+    ]
     assert heads == ["touchdown\npitch", "when due\npitch", "when due or touchdown\npitch"]
-    titles = [flights_title(runs) for runs in ([flown], [held], [flown, held])]
+    titles = [flights_title(runs) for runs in ([in_flight], [on_pivot], [in_flight, on_pivot])]
     assert ["balance" in title for title in titles] == [False, True, True]
     assert ["touchdown" in title for title in titles] == [True, False, True]
 
@@ -183,7 +188,7 @@ def printed(front, width=80, encoding="utf-8"):
 
 
 @pytest.mark.parametrize("width", [60, 80, 110])
-def test_the_table_has_every_point_and_nothing_is_wider_than_the_terminal(front, width):
+def test_the_table_has_every_point_and_fits_the_terminal(front, width):
     text = printed(front, width)
     assert max(map(len, text.splitlines())) <= width
     for point in front.points:
@@ -194,17 +199,17 @@ def test_the_table_has_every_point_and_nothing_is_wider_than_the_terminal(front,
         assert words in " ".join(text.split())
 
 
-def test_the_plot_falls_and_marks_what_has_no_device(front):
+def test_the_plot_falls_and_marks_values_without_a_device(front):
     text = printed(front)
     areas = re.findall("┤(.*)", text)
-    # The first column with a dot in each row that has any.
-    firsts = [found.start() for area in areas if (found := re.search("[⠁-⣿]", area))]
+    # The first column with a dot in each row that has dots.
+    firsts = [match.start() for area in areas if (match := re.search("[⠁-⣿]", area))]
     assert len(firsts) > 8
     assert firsts == sorted(firsts)
     axis = re.search("└(.*)", text)[1].rstrip()
     assert axis[0] == NO_DEVICE_MARK
     assert axis.count(NO_DEVICE_MARK) == 1
-    # The own value is the third of nine: a quarter of the way.
+    # The specified value is the third of nine: at a quarter of the axis.
     assert axis.index(OWN_VALUE_MARK) == pytest.approx(len(axis) / 4, abs=1)
 
 
@@ -225,8 +230,8 @@ def test_a_front_without_any_device_says_why():
 
 def test_the_figure_has_a_point_for_each_device_in_the_colour_of_its_drive(front):
     points = {mark.name: mark for mark in front_chart(front).marks if isinstance(mark, Points)}
-    of_fast = [1e3 * p.device.mass for p in front.feasible if p.device.motor == "Fast [28]"]
-    assert points["Fast [28], direct"].y.tolist() == of_fast
+    fast = [point.device for point in front.feasible if point.device.motor == "Fast [28]"]
+    assert points["Fast [28], direct"].y.tolist() == [1e3 * device.mass for device in fast]
     assert len(points["no device"].x) == len(front.points) - len(front.feasible)
     assert len({mark.ink for mark in points.values()}) == len(points)
 

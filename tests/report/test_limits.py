@@ -1,4 +1,4 @@
-"""Margins as people read them."""
+"""Margins, demands and alternatives in reports."""
 
 import io
 from dataclasses import replace
@@ -34,8 +34,8 @@ MARGINS = (
 )
 
 
-def test_every_limit_that_no_key_sets_is_explained():
-    """Those that a module's figures can be bound by, as the sizing names them."""
+def test_every_limit_without_a_key_is_explained():
+    """The limits of a module by their names in the sizing."""
     constants = vars(lightest_module).items()
     names = {value for name, value in constants if name.isupper() and isinstance(value, str)}
     assert names == set(LIMIT_MEANINGS)
@@ -54,23 +54,23 @@ def test_each_margin_is_a_row_and_each_note_a_line():
     assert max(map(len, rows)) <= 80
 
 
-def test_demands_are_told_in_the_units_of_the_bench():
-    made = design()
-    for demand, row in zip(made.requirement.demands, demand_table(made).rows, strict=True):
-        told = [float(cell) for cell in row[2:5]]
+def test_demands_are_in_practical_units():
+    sized = design()
+    for demand, row in zip(sized.requirement.demands, demand_table(sized).rows, strict=True):
+        shown = [float(cell) for cell in row[2:5]]
         exact = [1e3 * demand.roll_momentum, 1e3 * demand.pitch_momentum, 1e6 * demand.spin_inertia]
         assert row[0] == demand.source
-        assert told == pytest.approx(exact, rel=1e-3, abs=0.06)
-    assert any(demand.roll_momentum > 1e-3 for demand in made.requirement.demands)
+        assert shown == pytest.approx(exact, rel=1e-3, abs=0.06)
+    assert any(demand.roll_momentum > 1e-3 for demand in sized.requirement.demands)
 
 
-def test_limits_that_are_no_keys_are_named_in_words():
-    found = design()
-    bound = replace(found, sizing=replace(found.sizing, binding=("r_max", "hoop_stress", "hub")))
-    assert active_limit_names(bound) == ["r_max", "hoop stress", "hub"]
+def test_limits_without_a_key_are_named_in_words():
+    sized = design()
+    limited = replace(sized, sizing=replace(sized.sizing, binding=("r_max", "hoop_stress", "hub")))
+    assert active_limit_names(limited) == ["r_max", "hoop stress", "hub"]
 
 
-def test_units_of_the_bench():
+def test_quantities_are_in_practical_units():
     assert quantity(750.0, "rad/s") == "7,162 rpm"
     assert quantity(2.15e8, "Pa") == "215.0 MPa"
     assert quantity(0.873, "") == "87%"
@@ -80,13 +80,13 @@ def test_units_of_the_bench():
 @pytest.mark.parametrize(
     ("factor", "shown"), [(0.996, "0.99"), (1.0 - 1e-9, "1.00"), (1.029, "1.02")]
 )
-def test_a_limit_that_is_exceeded_is_not_told_as_kept(factor, shown):
+def test_margins_are_rounded_down(factor, shown):
     margin = Margin("torque", 1.0, factor, "N m", scenario="drop")
     ((_, _, _, cell, _),) = margin_table((margin,)).rows
     assert plain(cell) == shown
 
 
-def test_what_is_used_most_comes_first_and_equals_stand_together():
+def test_the_tightest_limits_come_first_with_equal_ones_together():
     margins = (
         Margin("power", 0.68, 1.0, "", scenario="flip", note="of the battery"),
         Margin("rms current", 2.4, 1.0, "", scenario="drop", note="a pause cools it"),
@@ -95,39 +95,44 @@ def test_what_is_used_most_comes_first_and_equals_stand_together():
         Margin("heat", 3.0, None, "", scenario="flip", note="not known"),
         Margin("height", 0.5, 1.0, ""),
     )
-    found = replace(design(), margins=margins)
-    # What a pause cools is no limit that is exceeded.
-    assert pause_remark(found) == "240% rms in drop (continuous rating 100%), a pause cools it"
-    assert utilizations(found) == (
+    sized = replace(design(), margins=margins)
+    # A continuous rating with a pause is not an exceeded limit.
+    assert pause_remark(sized) == "240% rms in drop (continuous rating 100%), a pause cools it"
+    assert utilizations(sized) == (
         ("100%", "torque and voltage (flip)"),
         (" 68%", "power (flip)"),
         (" 50%", "height"),
     )
 
 
-def test_only_what_one_would_change_is_listed_as_assumed():
-    said = ("Maneuvers: the paper's three.", "drop: falls from 1 m.", "Supply: 24 V.", "Edges: x.")
-    assert assumption_rows(said) == (("drop", "falls from 1 m"), ("supply", "24 V"))
+def test_only_assumptions_that_users_change_are_listed():
+    assumptions = (
+        "Maneuvers: the paper's three.",
+        "drop: falls from 1 m.",
+        "Supply: 24 V.",
+        "Edges: x.",
+    )
+    assert assumption_rows(assumptions) == (("drop", "falls from 1 m"), ("supply", "24 V"))
 
 
-def test_changes_that_save_come_by_what_they_save():
-    found = design()
-    now, motor = found.ocs.mass_total, found.ocs.motor.name
+def test_alternatives_are_sorted_by_their_savings():
+    sized = design()
+    current, motor = sized.ocs.mass_total, sized.ocs.motor.name
     changes = tuple(
         Alternative(change=change, mass_total=mass, motor=name, note=note)
         for change, mass, name, note in (
-            ("nothing", now, motor, "saves nothing"),
-            ("more time", now - 0.01, "Other", ""),
+            ("nothing", current, motor, "saves nothing"),
+            ("more time", current - 0.01, "Other", ""),
             ("no device", None, "", ""),
-            ("any material", now - 0.02, motor, "titanium"),
+            ("any material", current - 0.02, motor, "titanium"),
         )
     )
-    told = replace(found, alternatives=changes)
-    assert saving_changes(told) == (
+    with_changes = replace(sized, alternatives=changes)
+    assert saving_changes(with_changes) == (
         ("-20.0 g", "any material; titanium"),
         ("-10.0 g", "more time; Other"),
     )
-    assert [row[0] for row in alternatives_table(told).rows] == [
+    assert [row[0] for row in alternatives_table(with_changes).rows] == [
         "more time", "no device", "any material"
     ]  # fmt: skip
-    assert useless_changes_note(told) == "These save nothing: nothing."
+    assert useless_changes_note(with_changes) == "These save nothing: nothing."

@@ -1,4 +1,4 @@
-"""The choice of a motor as people read it, with the longest names of the catalogues."""
+"""The selection of a motor in reports, also with the longest names of the catalogues."""
 
 import io
 import re
@@ -60,8 +60,8 @@ def printed(selection=SELECTION, width=80):
     return [line.rstrip() for line in file.getvalue().splitlines()]
 
 
-def table_of_drives(lines):
-    """Its rows, cell by cell."""
+def drive_rows(lines):
+    """Rows of the table of drives as cells."""
     start = next(i for i, line in enumerate(lines) if line.lstrip().startswith("lightest drives"))
     end = next(i for i, line in enumerate(lines) if "ruled out" in line)
     return [re.split(r"\s{2,}", line.strip()) for line in lines[start + 2 : end]]
@@ -76,60 +76,60 @@ def test_each_drive_is_one_line_with_its_lightest_rim(width, shown):
         ["AT2814 KV1050", "341.2", "tungsten-alloy-class-4", *sizes],
         ["AT2814 KV1200, GT3 2 mm x 6 mm 24:36", "341.4", "stainless-304", *sizes],
     ]
-    rows = table_of_drives(lines)
+    rows = drive_rows(lines)
     assert [row[:shown] for row in rows] == [row[:shown] for row in expected]
 
 
-def test_the_longest_names_of_the_catalogues_stay_whole():
+def test_the_longest_names_are_not_abbreviated():
     long = replace(SELECTION, ranking=(ranked(*LONGEST, 12.3456), *RANKING))
     for width in (80, 110):
-        rows = table_of_drives(printed(long, width))
+        rows = drive_rows(printed(long, width))
         assert rows[0][:2] == ["Antigravity MN6007 II KV320, GT3 5 mm x 15 mm 18:48", "12345.6"]
         assert len(rows) == 4
 
 
-def test_rejections_are_counted_by_reason_and_the_report_lists_them():
+def test_rejections_are_counted_in_text_and_listed_in_the_report():
     assert "  3 motors ruled out: torque (2), heavier (1)." in printed()
     assert not any("detail" in line for line in printed())
     assert rejection_details(SELECTION) == tuple(f"motor {i}: detail {i}" for i in range(3))
 
 
-def test_where_no_time_is_set_there_is_none():
+def test_a_task_without_time_has_none():
     (row,) = (line for line in printed() if "rate change, pitch" in line)
     assert row.split()[-3:] == ["-", "-", "15,430"]
 
 
-def test_a_co_design_says_what_it_gained():
-    found = CoDesignRecord(
+def test_a_co_design_reports_its_saving():
+    co_design = CoDesignRecord(
         adopted=True, status="Solve_Succeeded", iterations=41, mass=0.330, selected_mass=0.3367,
         violation=2e-7, remark="The co-designed device is taken.",
     )  # fmt: skip
-    text = " ".join(printed(replace(SELECTION, co_design=found)))
+    text = " ".join(printed(replace(SELECTION, co_design=co_design)))
     assert "330.0 g against 336.7 g (-1.99%)" in text
     assert "2.0e-07 (relative), on a grid ten times finer" in text
     assert "The co-designed device is taken." in text
 
 
-def test_a_price_says_what_changes_and_what_it_saves_and_how_near_the_next_drive_is():
+def test_shadow_prices_are_changes_with_their_savings():
     prices = (
         PriceRecord(limit="r_max", value=0.05, changed=0.051, mass_change=-0.01486),
         PriceRecord(limit="h_max", value=0.01, changed=0.011, mass_change=0.0),
         PriceRecord(limit="time", value=1.0, changed=1.01, mass_change=-0.0312),
     )
-    found = replace(design(), selection=replace(SELECTION, prices=prices))
-    assert saving_table(found).rows == (
+    priced = replace(design(), selection=replace(SELECTION, prices=prices))
+    assert saving_table(priced).rows == (
         ("r_max", "50 to 51 mm", "14.86 g"),
         ("h_max", "10 to 11 mm", "nothing"),
         ("time for every maneuver", "+1%", "31.20 g"),
     )
-    assert "AT2814 KV1050, is 4.5 g heavier" in saving_notes(found)
+    assert "AT2814 KV1050, is 4.5 g heavier" in saving_notes(priced)
 
 
-def test_the_times_of_a_pivot_are_said_to_be_of_a_turn_that_asks_as_much():
-    told = []
+def test_a_note_explains_the_times_on_a_pivot():
+    notes = []
     for parameters in ({}, {"pivot": (0.0, 0.0, -0.2)}):
-        asked = ManeuverRecord(
+        maneuver = ManeuverRecord(
             kind="any", name="it", gravity=9.81, incidence=None, parameters=parameters
         )
-        told.append(task_note(SELECTION, [asked]))
-    assert ["On a pivot both times" in each for each in told] == [False, True]
+        notes.append(task_note(SELECTION, [maneuver]))
+    assert ["On a pivot both times" in note for note in notes] == [False, True]

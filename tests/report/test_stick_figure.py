@@ -1,4 +1,4 @@
-"""Words on the picture of what was recognised: each foot's name is legible in each view."""
+"""The stick figure of a recognised robot: the name of each foot is legible in each view."""
 
 from itertools import combinations
 from xml.etree import ElementTree as ET
@@ -21,13 +21,15 @@ def test_every_foot_is_named_in_every_view_and_no_name_is_on_another(file):
     robot = read_robot(file)
     names = {leg.name for leg in robot.legs}
     page = ET.fromstring(stick_figure(robot, robot.legs, ["legs"]))
-    words = [each for each in page.iter() if each.tag.endswith("text")]
-    feet = [each for each in words if each.text in names and each.get("font-size") == "10"]
+    texts = [element for element in page.iter() if element.tag.endswith("text")]
+    feet = [text for text in texts if text.text in names and text.get("font-size") == "10"]
     assert len(feet) == 3 * len(names)
     boxes = []
-    for each in feet:
-        x, y = float(each.get("x")), float(each.get("y"))
-        # Capitals of 10 px in most fonts are 7.3 px high and no more than 7 px wide in the mean.
-        boxes.append((x, y - 7.3, x + 7.0 * len(each.text), y))
-    for (x, y, far, low), (other_x, other_y, other_far, other_low) in combinations(boxes, 2):
-        assert far <= other_x or other_far <= x or low <= other_y or other_low <= y
+    for text in feet:
+        x, y = float(text.get("x")), float(text.get("y"))
+        # Capitals of 10 px are 7.3 px high in most fonts and at most 7 px wide on average.
+        boxes.append((x, y - 7.3, x + 7.0 * len(text.text), y))
+    for (x, y, right, bottom), (other_x, other_y, other_right, other_bottom) in combinations(
+        boxes, 2
+    ):
+        assert right <= other_x or other_right <= x or bottom <= other_y or other_bottom <= y

@@ -1,4 +1,4 @@
-"""The line that is read first: buildable, level, stands, and the one thing that matters most."""
+"""The headline: buildable, level, stands, and the most important remark."""
 
 import re
 from dataclasses import replace
@@ -28,14 +28,14 @@ def run(scenario="drop", *, passed=True, level=True, stands=True, ocs=True, reas
 
 
 def verdict(*runs, yes=True, points=(), **motor):
-    found = design(MOTOR)
-    robot = replace(found.robot, sha256=motor.pop("sha256", "12ab"))
-    ocs = replace(found.ocs, motor=replace(found.ocs.motor, **motor))
-    # As the design stands, no module is turned by hand.
-    requirement = replace(found.requirement, demands=())
+    sized = design(MOTOR)
+    robot = replace(sized.robot, sha256=motor.pop("sha256", "12ab"))
+    ocs = replace(sized.ocs, motor=replace(sized.ocs.motor, **motor))
+    # Without demands no module is turned by hand.
+    requirement = replace(sized.requirement, demands=())
     return headline(
         replace(
-            found,
+            sized,
             robot=robot,
             ocs=ocs,
             requirement=requirement,
@@ -48,34 +48,34 @@ def verdict(*runs, yes=True, points=(), **motor):
 OFF = {"passed": False, "level": False, "stands": False}
 POINT = OpenPoint(what="no source gives the threads", cure="choose another")
 VERDICTS = {
-    "all is well": (
+    "all flights pass": (
         (run(), run("flip"), run(ocs=False, **OFF)),
         ("level 2 of 2  ·  stands 2 of 2", Tone.PASS, ""),
     ),
-    "a flight that fails is named with its reason": (
+    "a failed flight with its reason": (
         (run(), run("flip", **OFF, reason="turns 200")),
         ("level 1 of 2  ·  stands 1 of 2", Tone.FAIL, "flip: turns 200"),
     ),
-    "a turn that falls short is no pass though it lands level": (
+    "an incomplete turn fails though it lands level": (
         (run(), run("flip", passed=False, reason="turns 0 of -360 deg")),
         ("level 2 of 2  ·  stands 2 of 2  ·  1 of 2 pass", Tone.FAIL, "flip: turns 0 of -360 deg"),
     ),
-    "what was not judged is no pass": (
+    "a flight that is not judged does not pass": (
         (run(), run("flip", passed=None, level=None, stands=None, reason="not judged: x")),
         ("level 1 of 2  ·  stands 1 of 1  ·  1 of 2 not judged", Tone.FAIL, "flip: not judged: x"),
     ),
-    "nothing was flown": ((), ("no flight was simulated", Tone.OPEN, "")),
+    "no flights": ((), ("no flight was simulated", Tone.OPEN, "")),
 }
 
 
 @pytest.mark.parametrize(("runs", "expected"), VERDICTS.values(), ids=VERDICTS)
-def test_the_line_and_what_matters_most(runs, expected):
+def test_headline_with_its_most_important_remark(runs, expected):
     line = verdict(*runs)
     assert (line.text.removeprefix("buildable  ·  "), line.tone, line.main_finding) == expected
     assert line.text.startswith("buildable")
 
 
-def test_what_cannot_be_built_says_why_and_what_would_do():
+def test_an_unbuildable_device_has_its_reason_and_cure():
     line = verdict(run(passed=False, reason="falls"), yes=False, points=(POINT,))
     assert line.text.startswith("NOT buildable")
     assert (line.tone, line.main_finding) == (
@@ -84,35 +84,35 @@ def test_what_cannot_be_built_says_why_and_what_would_do():
     )
 
 
-def test_a_biped_that_lands_level_and_falls_is_told():
-    """Its legs bear no landing, so every flight passes, and none of them stands."""
+def test_a_biped_that_lands_level_and_falls_has_a_remark():
+    """Its legs cannot stand after a landing, so every flight passes, but none stands."""
     line = verdict(*(run(name, stands=False) for name in ("drop", "flip")))
     assert line.text == "buildable  ·  level 2 of 2  ·  stands 0 of 2"
     assert line.tone is Tone.OPEN
     assert line.main_finding.startswith("drop, flip: the robot lands level and then falls")
 
 
-def test_a_robot_that_ends_leaning_is_not_said_to_stand_like_the_others():
+def test_a_robot_that_ends_leaning_is_counted_separately():
     line = verdict(run("flip"), replace(run(), metrics={"final_pitch": radians(18.3)}))
     assert line.text == "buildable  ·  level 2 of 2  ·  stands 2 of 2, 1 leaning"
     assert line.tone is Tone.OPEN
     assert "ends leaning: drop 18.3 deg" in line.main_finding
 
 
-def test_a_flight_that_fails_is_minded_though_the_verdict_names_one_of_its_letters():
+def test_warnings_list_the_failed_flights_that_the_headline_does_not_name():
     runs = run("back-flip", **OFF, reason="turns 200"), run("flip", **OFF, reason="turns 9")
-    screen = StringIO()
-    found = replace(design(MOTOR), validation=runs, buildable=Buildable(yes=True))
-    print_summary(Console(file=screen, width=100), found, (), Path("out"))
-    assert headline(found).flight == "back-flip"
-    _, _, minded = screen.getvalue().partition("Warnings")
-    assert "- flip, with: turns 9" in minded
-    assert "- back-flip, with:" not in minded
+    stream = StringIO()
+    sized = replace(design(MOTOR), validation=runs, buildable=Buildable(yes=True))
+    print_summary(Console(file=stream, width=100), sized, (), Path("out"))
+    assert headline(sized).flight == "back-flip"
+    _, _, warnings = stream.getvalue().partition("Warnings")
+    assert "- flip, with: turns 9" in warnings
+    assert "- back-flip, with:" not in warnings
 
 
 def test_a_robot_without_legs_does_not_stand():
-    flown = Validated(design="", robot="", warnings=(), validation=(run(stands=None),))
-    assert headline(flown).text == "level 1 of 1"
+    validated = Validated(design="", robot="", warnings=(), validation=(run(stands=None),))
+    assert headline(validated).text == "level 1 of 1"
 
 
 @pytest.mark.parametrize(
@@ -123,7 +123,7 @@ def test_a_robot_without_legs_does_not_stand():
         ({}, "buildable: unknown"),
     ],
 )
-def test_where_it_cannot_be_told_it_says_so(changes, words):
+def test_unknown_buildability_has_its_reason(changes, words):
     line = verdict(run(), yes=None, **changes)
     assert line.parts[0].text == words
     assert line.tone is Tone.OPEN

@@ -1,4 +1,4 @@
-"""Charts: their axes and ticks, their marks as SVG, and the PNG that resvg draws of them."""
+"""Charts: axes and ticks, marks as SVG, and PNG by resvg."""
 
 import sys
 from dataclasses import replace
@@ -37,44 +37,46 @@ def chart(*marks, title="title", **options):
     return Chart("name", title, "seen", axis, axis, marks, **options)
 
 
-def path_of(look, svg):
-    """Path with these classes."""
-    return ET.fromstring(svg).find(f".//{SVG}path[@class='{look}']").get("d")
+def path_of(classes, svg):
+    """Data of the path with these classes."""
+    return ET.fromstring(svg).find(f".//{SVG}path[@class='{classes}']").get("d")
 
 
 def notes(svg):
-    """Words beside marks."""
-    return [each for each in ET.fromstring(svg).iter(f"{SVG}text") if each.get("class") == "note"]
+    """Labels beside marks."""
+    texts = ET.fromstring(svg).iter(f"{SVG}text")
+    return [text for text in texts if text.get("class") == "note"]
 
 
 def ticks_below(svg):
-    """Figures of the axis below."""
+    """Tick labels of the lower axis."""
     texts = ET.fromstring(svg).iter(f"{SVG}text")
-    return [t for t in texts if t.get("class") == "tick" and t.get("text-anchor") == "middle"]
+    ticks = [text for text in texts if text.get("class") == "tick"]
+    return [text for text in ticks if text.get("text-anchor") == "middle"]
 
 
-def places(svg):
-    """Centres of its discs, in the order of the marks [px]."""
+def centres(svg):
+    """Centres of the discs in the order of the marks [px]."""
     circles = ET.fromstring(svg).iter(f"{SVG}circle")
     return np.array([[float(c.get("cx")), float(c.get("cy"))] for c in circles])
 
 
 def test_points_lie_where_their_values_are():
     values = np.array([0.0, 2.5, 5.0, 10.0])
-    x, y = places(inline_svg(chart(Points(values, values, Ink.BLUE)))).T
+    x, y = centres(inline_svg(chart(Points(values, values, Ink.BLUE)))).T
     np.testing.assert_allclose((x - x[0]) / (x[-1] - x[0]), values / 10.0, atol=1e-3)
     np.testing.assert_allclose((y - y[0]) / (y[-1] - y[0]), values / 10.0, atol=1e-3)
     assert x[0] < x[-1]
     assert y[0] > y[-1], "up is up"
 
 
-def test_units_are_as_long_on_both_axes_where_that_is_asked_for():
+def test_equal_axes_have_units_of_equal_length():
     corner = np.array([0.0, 4.0, 4.0]), np.array([0.0, 0.0, 4.0])
-    origin, right, up = places(inline_svg(chart(Points(*corner, Ink.BLUE), equal=True)))
+    origin, right, up = centres(inline_svg(chart(Points(*corner, Ink.BLUE), equal=True)))
     assert right[0] - origin[0] == pytest.approx(right[1] - up[1], abs=0.2)
 
 
-def test_every_text_is_escaped_and_read_out():
+def test_texts_are_escaped_with_title_and_description():
     x = np.array([1.0, 2.0])
     marks = (
         Curve(x, x, Ink.BLUE, HOSTILE),
@@ -89,16 +91,16 @@ def test_every_text_is_escaped_and_read_out():
         root = ET.fromstring(content)
         assert not list(root.iter(f"{SVG}script"))
         assert root.find(f"{SVG}title").text == root.find(f"{SVG}desc").text == HOSTILE
-        assert [each.text for each in root.iter(f"{SVG}text")].count(HOSTILE) == 4
+        assert [text.text for text in root.iter(f"{SVG}text")].count(HOSTILE) == 4
 
 
-def test_a_file_has_its_own_colours_and_a_page_has_none():
+def test_a_file_has_colours_and_an_inline_chart_has_none():
     drawn = chart(Rule(1.0, upright=True))
     assert "#0072b2" in svg_file(drawn).decode()
     assert "#" not in inline_svg(drawn).replace("url(#", "")
 
 
-def test_a_line_is_broken_where_its_values_are():
+def test_a_line_is_broken_at_nan():
     x = np.arange(6.0)
     y = np.array([1.0, 2.0, np.nan, 3.0, 4.0, 5.0])
     assert path_of("line blue", inline_svg(chart(Curve(x, y, Ink.BLUE)))).count("M") == 2
@@ -115,65 +117,67 @@ def test_thinning_keeps_ends_and_peaks():
     assert set(zip(few_x, few_y, strict=True)) <= set(zip(x, y, strict=True))
 
 
-def test_words_that_would_lie_on_each_other_or_on_a_disc_give_way():
+def test_labels_avoid_each_other_and_discs():
     near = np.array([5.0, 5.02]), np.array([5.0, 5.01])
     drawn = chart(
         Points(*near, Ink.BLUE, labels=("kick in hop", "off the table")),
         Points(np.array([5.5]), np.array([0.5]), Ink.GREEN),
         Rule(5.1, upright=True, label="alpha 28 deg"),
     )
-    first, second, rule = (float(each.get("y")) for each in notes(inline_svg(drawn)))
+    first, second, rule = (float(note.get("y")) for note in notes(inline_svg(drawn)))
     assert abs(first - second) > 10.0
-    disc = places(inline_svg(drawn))[2]
+    disc = centres(inline_svg(drawn))[2]
     assert not -4.0 < rule - disc[1] < 13.5, "clear of the disc"
 
 
 @pytest.mark.parametrize("rise", [0.0, 2.0])
-def test_no_curve_strikes_the_words_of_its_points_through(rise):
-    """Not a straight one either, of which only the ends are drawn."""
+def test_curves_do_not_cross_the_labels_of_their_points(rise):
+    """Also not a straight curve, of which only the ends are drawn."""
     x, y = np.array([0.5, 6.0]), np.array([5.0, 5.0 + rise])
     svg = inline_svg(chart(Curve(x, y, Ink.BLUE), Points(x, y, Ink.BLUE, labels=("50 %", "99 %"))))
-    slope = np.polyfit(*places(svg).T, 1)
-    first, _ = words = notes(svg)
-    assert [each.text for each in words] == ["50 %", "99 %"]
+    slope = np.polyfit(*centres(svg).T, 1)
+    first, _ = labels = notes(svg)
+    assert [label.text for label in labels] == ["50 %", "99 %"]
     ends = float(first.get("x")) + np.array([0.0, 25.0])
     baseline = float(first.get("y"))
     line = np.polyval(slope, ends)
     assert (line > baseline).all() or (line < baseline - 8.0).all()
 
 
-def test_the_word_at_a_rule_stands_where_no_curve_is():
+def test_the_label_of_a_rule_avoids_curves():
     x = np.linspace(0.0, 10.0, 200)
     low = Curve(x, np.where(x > 8.0, 4.0, 0.3), Ink.BLUE)
     high = Curve(x, np.full(200, 9.8), Ink.GREEN)
     root = ET.fromstring(inline_svg(chart(low, high, Rule(2.0, upright=True, label="touchdown"))))
-    (word,) = (float(each.get("y")) for each in root.iter(f"{SVG}text") if each.text == "touchdown")
+    texts = root.iter(f"{SVG}text")
+    (label,) = (float(text.get("y")) for text in texts if text.text == "touchdown")
     top, bottom = map(float, root.get("data-y").split())
-    height = (bottom - word) / (bottom - top)
+    height = (bottom - label) / (bottom - top)
     assert 0.07 < height < 0.9
 
 
-def test_where_curves_are_all_over_its_right_the_word_at_a_rule_stands_on_its_left():
-    up = np.linspace(0.0, 10.0, 41)
-    curves = [Curve(np.array([5.0, 9.0]), np.array([y, y]), Ink.BLUE) for y in up]
+def test_the_label_of_a_rule_moves_to_its_left_where_the_right_is_full():
+    levels = np.linspace(0.0, 10.0, 41)
+    curves = [Curve(np.array([5.0, 9.0]), np.array([y, y]), Ink.BLUE) for y in levels]
     svg = inline_svg(chart(*curves, Rule(5.0, upright=True, label="touchdown")))
-    (word,) = notes(svg)
-    assert word.get("text-anchor") == "end"
+    (label,) = notes(svg)
+    assert label.get("text-anchor") == "end"
 
 
-def test_where_curves_are_everywhere_the_word_at_a_rule_stays_off_the_axis():
-    """Its figures are below; a curve through the word is the lesser evil."""
-    up = np.linspace(0.0, 10.0, 41)
-    curves = [Curve(np.array([1.0, 6.0]), np.array([y, y]), Ink.BLUE) for y in up]
+def test_the_label_of_a_rule_stays_off_the_axis_where_all_is_full():
+    """The tick labels are below; a curve through the label is the lesser evil."""
+    levels = np.linspace(0.0, 10.0, 41)
+    curves = [Curve(np.array([1.0, 6.0]), np.array([y, y]), Ink.BLUE) for y in levels]
     svg = inline_svg(chart(*curves, Rule(2.0, upright=True, label="touchdown")))
-    (word,) = notes(svg)
-    axis = min(float(each.get("y")) for each in ticks_below(svg))
-    assert float(word.get("y")) < axis - 12.0
+    (label,) = notes(svg)
+    axis = min(float(tick.get("y")) for tick in ticks_below(svg))
+    assert float(label.get("y")) < axis - 12.0
 
 
-def test_a_rule_with_a_name_is_in_the_legend_once():
+def test_rules_of_one_name_are_in_the_legend_once():
     rules = (Rule(side, upright=False, name="allowed") for side in (2.0, 8.0))
-    texts = [each.text for each in ET.fromstring(inline_svg(chart(*rules))).iter(f"{SVG}text")]
+    root = ET.fromstring(inline_svg(chart(*rules)))
+    texts = [text.text for text in root.iter(f"{SVG}text")]
     assert texts.count("allowed") == 1
 
 
@@ -200,7 +204,7 @@ def test_ticks_lie_on_the_axis_at_equal_round_distances(ends, unit):
         np.testing.assert_allclose(np.diff(ticks), np.diff(ticks)[0], rtol=1e-3, atol=1e-10)
 
 
-def test_angles_have_ticks_that_people_know():
+def test_angles_have_ticks_at_usual_angles():
     assert Axis("pitch", "deg", -380.0, 20.0).ticks() == [-360.0, -270.0, -180.0, -90.0, 0.0]
     assert Axis("alpha", "deg", 0.0, 90.0).ticks() == [0.0, 15.0, 30.0, 45.0, 60.0, 75.0, 90.0]
 
@@ -213,7 +217,7 @@ def test_a_logarithmic_axis_has_equal_ratios_at_equal_distances():
     np.testing.assert_allclose(Axis("I", "", 1.1e-5, 8e-5, log=True).ticks(), [2e-5, 5e-5])
 
 
-def test_an_axis_is_not_empty_where_its_values_are_equal_or_none():
+def test_an_axis_of_equal_or_no_values_has_a_width():
     for values in ([3.0, 3.0], [3.0, 3.0 + 1e-12], [0.0], [], [np.nan]):
         axis = Axis.around("x", "m", values)
         assert axis.low < axis.high
@@ -231,55 +235,55 @@ def test_numbers_are_short_and_typeset():
     assert {value: tick_text(value) for value in texts} == texts
 
 
-@pytest.mark.parametrize("odd", [np.nan, np.inf, -np.inf, 1.7e308, -1.7e308])
-def test_what_is_beyond_measure_stretches_no_axis(odd):
-    axis = Axis.around("tilt", "deg", [0.0, odd, 10.0, -odd])
+@pytest.mark.parametrize("extreme", [np.nan, np.inf, -np.inf, 1.7e308, -1.7e308])
+def test_extreme_values_do_not_stretch_an_axis(extreme):
+    axis = Axis.around("tilt", "deg", [0.0, extreme, 10.0, -extreme])
     assert (axis.low, axis.high) == pytest.approx((-0.6, 10.6))
     assert axis.ticks()[-1] == 10.0
-    parts = axis.parts(np.array([odd, 5.0]))
+    parts = axis.parts(np.array([extreme, 5.0]))
     assert np.isnan(parts[0]) or abs(parts[0]) <= 1e3
     assert parts[1] == pytest.approx(0.5)
 
 
-def picture(chart):
+def pixels(chart):
     content = png_of(svg_file(chart).decode())
     return np.asarray(Image.open(BytesIO(content)).convert("RGB")).astype(int)
 
 
 @pytest.mark.slow
-def test_a_chart_is_drawn_twice_as_large_as_in_svg_and_always_to_the_same_bytes():
-    drawn = next(each for each in all_charts(story()) if each.name == "bound_pitch")
-    image = picture(drawn)
+def test_a_png_is_twice_as_large_as_its_svg_and_reproducible():
+    drawn = next(figure for figure in all_charts(story()) if figure.name == "bound_pitch")
+    image = pixels(drawn)
     assert image.shape == (2 * drawn.height, 880, 3)
     assert len(np.unique(image.reshape(-1, 3), axis=0)) > 20
     assert png_of(svg_file(drawn).decode()) == png_of(svg_file(replace(drawn)).decode())
 
 
 @pytest.mark.parametrize("letters", ["Maß α*", "10⁻⁴ m² −1 …", "Ж"])
-def test_every_letter_has_a_shape_in_our_font(letters):
-    """Only the title differs, and each letter leaves ink of its own on it."""
-    blank = picture(chart(title=""))
-    # What the font does not have would be drawn as the same box for all.
-    unknown = picture(chart(title="\ue000"))
+def test_every_letter_has_a_glyph(letters):
+    """Pictures with one letter as title differ from those without title or with a missing glyph."""
+    blank = pixels(chart(title=""))
+    # A letter that the font lacks would be drawn as a box.
+    unknown = pixels(chart(title="\ue000"))
     for letter in letters.replace(" ", ""):
-        drawn = picture(chart(title=letter))
+        drawn = pixels(chart(title=letter))
         assert (drawn != blank).any(axis=2).sum() > 4
         assert (drawn != unknown).any()
 
 
-def test_words_that_would_run_into_their_neighbours_are_narrower_than_the_layout_says():
-    """The layout of the SVG takes letters for 6.2 px wide in the mean."""
-    drawn = picture(chart(title="an ordinary title of a chart"))
-    blank = picture(chart(title=""))
+def test_text_is_narrower_than_the_layout_assumes():
+    """The layout of the SVG assumes letters of 6.2 px on average."""
+    drawn = pixels(chart(title="an ordinary title of a chart"))
+    blank = pixels(chart(title=""))
     columns = np.flatnonzero((drawn != blank).any(axis=(0, 2)))
     assert columns.max() - 8 < 2 * 28 * 6.2 * 13 / 11
 
 
-def test_without_resvg_the_svg_is_written_and_it_is_told_how_to_get_the_rest(monkeypatch, tmp_path):
+def test_without_resvg_the_svg_is_written_with_a_note(monkeypatch, tmp_path):
     monkeypatch.setitem(sys.modules, "resvg_py", None)
     with pytest.raises(MissingToolError) as caught:
-        picture(chart())
+        pixels(chart())
     assert "ocs-design[plot]" in caught.value.hint
-    (told,) = write_charts([chart()], tmp_path)
-    assert "resvg-py is not installed: pip install 'ocs-design[plot]'" in told
+    (note,) = write_charts([chart()], tmp_path)
+    assert "resvg-py is not installed: pip install 'ocs-design[plot]'" in note
     assert [path.name for path in tmp_path.iterdir()] == ["name.svg"]

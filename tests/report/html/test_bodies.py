@@ -36,7 +36,7 @@ def glb(tmp_path_factory):
 
 
 def corners(bodies):
-    """Corners of all triangles, in B, shape (n, 3, 3)."""
+    """Corners of all triangles in B [m], shape (n, 3, 3)."""
     return np.concatenate(
         [
             (s.vertices @ body.placement.rotation.T + body.placement.position)[s.faces]
@@ -46,11 +46,11 @@ def corners(bodies):
     )
 
 
-def test_every_triangle_is_where_trimesh_has_it(glb):
-    theirs = trimesh.load(glb).to_geometry()
-    expected = np.sort(theirs.triangles_center @ UPRIGHT, axis=0)
-    found = np.sort(corners(read_bodies(glb.read_bytes())).mean(axis=1), axis=0)
-    np.testing.assert_allclose(found, expected, atol=1e-6)
+def test_triangles_are_those_of_trimesh(glb):
+    scene = trimesh.load(glb).to_geometry()
+    expected = np.sort(scene.triangles_center @ UPRIGHT, axis=0)
+    centres = np.sort(corners(read_bodies(glb.read_bytes())).mean(axis=1), axis=0)
+    np.testing.assert_allclose(centres, expected, atol=1e-6)
 
 
 def test_bodies_have_the_names_of_the_links(glb):
@@ -67,13 +67,13 @@ def body(mesh, name="link"):
     return ShownBody(name, Placement.identity(), (surface,))
 
 
-def mesh_of(shown):
-    (surface,) = shown.surfaces
+def mesh_of(body_):
+    (surface,) = body_.surfaces
     return trimesh.Trimesh(surface.vertices, surface.faces, process=False)
 
 
 def triangles_of(bodies):
-    return sum(len(surface.faces) for each in bodies for surface in each.surfaces)
+    return sum(len(surface.faces) for body in bodies for surface in body.surfaces)
 
 
 @pytest.fixture(scope="module")
@@ -88,9 +88,9 @@ def test_a_box_keeps_its_edges_and_its_volume(box):
     (coarse,) = decimated([body(box)], 1500)
     assert len(box.faces) > 12_000
     assert triangles_of([coarse]) <= 1500
-    found = mesh_of(coarse)
-    np.testing.assert_allclose(found.bounds, box.bounds, atol=1e-9)
-    assert found.volume == pytest.approx(box.volume, rel=5e-3)
+    mesh = mesh_of(coarse)
+    np.testing.assert_allclose(mesh.bounds, box.bounds, atol=1e-9)
+    assert mesh.volume == pytest.approx(box.volume, rel=5e-3)
 
 
 def test_a_ball_stays_round():
@@ -100,27 +100,27 @@ def test_a_ball_stays_round():
     np.testing.assert_allclose(radii, 0.2, rtol=0.02)
 
 
-def test_what_is_small_enough_stays_as_it_is_with_equal_points_as_one():
+def test_a_small_mesh_keeps_its_triangles_with_merged_vertices():
     soup = trimesh.creation.box()
     loose = trimesh.Trimesh(
         soup.triangles.reshape(-1, 3), np.arange(36).reshape(-1, 3), process=False
     )
-    (found,) = decimated([body(loose)], 100)
-    (surface,) = found.surfaces
+    (merged,) = decimated([body(loose)], 100)
+    (surface,) = merged.surfaces
     assert (len(surface.vertices), len(surface.faces)) == (8, 12)
-    assert mesh_of(found).volume == pytest.approx(1.0, rel=1e-3)
+    assert mesh_of(merged).volume == pytest.approx(1.0, rel=1e-3)
 
 
-def test_the_device_is_drawn_finer_than_its_robot():
+def test_the_device_keeps_more_triangles_than_its_robot():
     ball = trimesh.creation.icosphere(subdivisions=4, radius=0.2)
     robot, device = decimated([body(ball), body(ball, "ocs_left_flywheel")], 4000)
     assert triangles_of([device]) > 3 * triangles_of([robot])
 
 
-def test_no_triangle_is_without_area_or_there_twice(box):
-    found = clustered(body(box).surfaces[0], 0.013)
-    assert (mesh_of(ShownBody("x", Placement.identity(), (found,))).area_faces > 0.0).all()
-    assert len(np.unique(np.sort(found.faces, axis=1), axis=0)) == len(found.faces)
+def test_no_triangle_is_degenerate_or_repeated(box):
+    surface = clustered(body(box).surfaces[0], 0.013)
+    assert (mesh_of(ShownBody("x", Placement.identity(), (surface,))).area_faces > 0.0).all()
+    assert len(np.unique(np.sort(surface.faces, axis=1), axis=0)) == len(surface.faces)
 
 
 TABLE = CellTable(columns("<name", "time [s]"), (("torque", Toned("1.2", Tone.OPEN)),))
@@ -128,36 +128,36 @@ TEXT = st.text(st.characters(exclude_categories=["Cs", "Cc"]))
 
 
 @given(TEXT, TEXT)
-def test_no_text_becomes_an_element_or_an_attribute(text, value):
+def test_text_is_escaped_in_elements_and_attributes(text, value):
     page = Page(element("p", text, title=value, hidden=True))
     assert page.tags == ["p"]
     assert page.attributes == ([("title", value)] if value else []) + [("hidden", None)]
     for power, letter in (("²", "2"), ("³", "3")):
         text = text.replace(power, letter)
-        page.texts = [each.replace(power, letter) for each in page.texts]
+        page.texts = [part.replace(power, letter) for part in page.texts]
     assert "".join(page.texts) == text
 
 
 @settings(max_examples=30)
 @given(st.dictionaries(TEXT, TEXT))
-def test_data_comes_back_and_cannot_end_its_element(value):
+def test_embedded_data_cannot_close_its_element(value):
     page = Page(data("design", json.dumps(value, ensure_ascii=False)))
     assert page.tags == ["script"]
     assert json.loads("".join(page.texts)) == value
 
 
-def test_markup_stands_as_it_is_and_units_get_their_powers():
+def test_markup_is_not_escaped_and_units_get_superscripts():
     assert element("p", Markup("<b>x</b>"), "<b>") == "<p><b>x</b>&lt;b&gt;</p>"
     raised = element("p", "4 kg m2, 5 kg m^2, robot_m2, 3 rad/s2")
     assert raised == "<p>4 kg m², 5 kg m², robot_m2, 3 rad/s²</p>"
 
 
-def test_lists_without_anything_are_not_there():
+def test_empty_lists_are_omitted():
     assert items([]) == ""
     assert Page(items(["a", "b"])).tags == ["ul", "li", "li"]
 
 
-def test_tables_have_a_caption_and_heads_for_their_columns():
+def test_tables_have_a_caption_and_column_headers():
     page = Page(table("Margins", TABLE))
     assert " ".join(page.tags) == "div table caption thead tr th th tbody tr td td span"
     assert page.texts == ["Margins", "name", "time [s]", "torque", "1.2"]
@@ -165,9 +165,9 @@ def test_tables_have_a_caption_and_heads_for_their_columns():
     assert [page.attributes.count(pair) for pair in pairs] == [2, 2, 1]
 
 
-# Of linear sRGB, severity 1: G. M. Machado, M. M. Oliveira, L. A. F. Fernandes, "A
+# Matrices for linear sRGB, severity 1: G. M. Machado, M. M. Oliveira, L. A. F. Fernandes, "A
 # Physiologically-based Model for Simulation of Color Vision Deficiency", IEEE TVCG 15(6), 2009.
-SEEN_BY = {
+VISION = {
     "all cones": np.eye(3),
     "no red cones": np.array([
         [0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216],
@@ -186,17 +186,17 @@ LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 
 
 def palettes():
-    """Palettes of the page in light and in dark."""
+    """Palettes of the page by colour scheme."""
     style = template_text("report/report.css")
     blocks = re.findall(r":root \{(.*?)\}", style, re.DOTALL)[:2]
     return {
-        look: dict(re.findall(r"--([\w-]+): (#[0-9a-f]{6})", block))
-        for look, block in zip(("light", "dark"), blocks, strict=True)
+        scheme: dict(re.findall(r"--([\w-]+): (#[0-9a-f]{6})", block))
+        for scheme, block in zip(("light", "dark"), blocks, strict=True)
     }
 
 
 def linear(color):
-    """Intensities of a colour of the screen (IEC 61966-2-1)."""
+    """Linear intensities of an sRGB colour (IEC 61966-2-1)."""
     code = np.array([int(color[i : i + 2], 16) for i in (1, 3, 5)]) / 255.0
     return np.where(code <= 0.04045, code / 12.92, ((code + 0.055) / 1.055) ** 2.4)
 
@@ -214,28 +214,28 @@ def lab(intensity):
 
 def contrast(one, other):
     """Ratio of WCAG 2.2, success criterion 1.4.3."""
-    light, dark = sorted((LUMINANCE @ linear(each) for each in (one, other)), reverse=True)
+    light, dark = sorted((LUMINANCE @ linear(color) for color in (one, other)), reverse=True)
     return (light + 0.05) / (dark + 0.05)
 
 
-@pytest.mark.parametrize("look", ["light", "dark"])
-@pytest.mark.parametrize("eyes", SEEN_BY)
-def test_curves_are_told_apart(look, eyes):
-    palette = palettes()[look]
-    seen = {ink: lab(SEEN_BY[eyes] @ linear(palette[ink])) for ink in SERIES}
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("vision", VISION)
+def test_curves_are_distinguishable(scheme, vision):
+    palette = palettes()[scheme]
+    colors = {ink: lab(VISION[vision] @ linear(palette[ink])) for ink in SERIES}
     for one, other in combinations(SERIES, 2):
-        # What is just seen beside each other is 2.3 (M. Mahy and others, 1994).
-        assert np.linalg.norm(seen[one] - seen[other]) > 4.0 * 2.3, (one, other)
+        # A just noticeable difference is 2.3 (M. Mahy and others, 1994).
+        assert np.linalg.norm(colors[one] - colors[other]) > 4.0 * 2.3, (one, other)
 
 
-@pytest.mark.parametrize("look", ["light", "dark"])
-def test_words_and_curves_stand_out_from_what_is_behind_them(look):
-    palette = palettes()[look]
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_text_and_curves_have_enough_contrast(scheme):
+    palette = palettes()[scheme]
     for ink in ("text", "soft", "accent"):
-        for back in ("paper", "page"):
-            assert contrast(palette[ink], palette[back]) >= 4.5, (ink, back)
+        for background in ("paper", "page"):
+            assert contrast(palette[ink], palette[background]) >= 4.5, (ink, background)
     for state in ("good", "bad", "open"):
         assert contrast(palette[state], palette[f"{state}-back"]) >= 4.5, state
-    # Curves; the last two are only for a fifth and a sixth curve, which the legend names.
+    # The last two inks are for a fifth and a sixth curve, which the legend names.
     for ink in SERIES[:4]:
         assert contrast(palette[ink], palette["paper"]) >= 3.0, ink

@@ -1,4 +1,4 @@
-"""What the page's script unpacks, unpacked here, against MuJoCo's poses."""
+"""The encoded scene, decoded as by the page's script, against MuJoCo's poses."""
 
 import base64
 import zlib
@@ -31,7 +31,7 @@ def flights():
     return recorded_flights([*map(record_run, runs)], runs)
 
 
-def shown(name):
+def triangle_body(name):
     surface = Surface(TRIANGLE, np.array([[0, 1, 2]]), (1.0, 0.5, 0.0, 1.0))
     return ShownBody(name, Placement.identity(), (surface,))
 
@@ -40,54 +40,54 @@ def shown(name):
 def scene(flights):
     names = ("base_link", "HL_LOWER_LEG", "ocs_left_flywheel", "ocs_right_flywheel")
     blob = Blob()
-    found = encoded_scene([shown(name) for name in names], flights, ["drop"], blob)
-    return found, zlib.decompress(base64.b64decode(blob.text()))
+    encoded = encoded_scene([triangle_body(name) for name in names], flights, ["drop"], blob)
+    return encoded, zlib.decompress(base64.b64decode(blob.text()))
 
 
-def unpack(content, place):
+def decoded(content, place):
     return np.frombuffer(content, KINDS[place["kind"]], place["length"], place["at"]).astype(float)
 
 
-def test_poses_come_back_to_a_tenth_of_a_millimetre_and_a_hundredth_of_a_degree(scene, flights):
-    found, content = scene
-    for record, flight in zip(found["flights"], flights, strict=True):
+def test_poses_are_accurate_to_a_tenth_of_a_millimetre_and_a_hundredth_of_a_degree(scene, flights):
+    encoded, content = scene
+    for record, flight in zip(encoded["flights"], flights, strict=True):
         count, poses = record["frames"], flight.poses
-        position = unpack(content, record["position"]).reshape(count, 4, 3)
-        attitude = unpack(content, record["attitude"]).reshape(count, 4, 4) / 32767.0
-        wheels = unpack(content, record["wheels"]).reshape(count, 2)
-        for place, body in enumerate(found["bodies"]):
-            true = poses.bodies.index(body["name"])
-            np.testing.assert_allclose(position[:, place], poses.position[:, true], atol=6e-5)
-            turned = Rotation.from_quat(attitude[:, place], scalar_first=True)
+        position = decoded(content, record["position"]).reshape(count, 4, 3)
+        attitude = decoded(content, record["attitude"]).reshape(count, 4, 4) / 32767.0
+        wheels = decoded(content, record["wheels"]).reshape(count, 2)
+        for number, body in enumerate(encoded["bodies"]):
+            index = poses.bodies.index(body["name"])
+            np.testing.assert_allclose(position[:, number], poses.position[:, index], atol=6e-5)
+            rotation = Rotation.from_quat(attitude[:, number], scalar_first=True)
             if body["wheel"] is not None:
                 about_z = np.outer(wheels[:, body["wheel"]], [0.0, 0.0, 1.0])
-                turned = turned * Rotation.from_rotvec(about_z)
-            off = turned.inv() * Rotation.from_quat(poses.attitude[:, true], scalar_first=True)
-            assert np.degrees(off.magnitude()).max() < 0.01
+                rotation = rotation * Rotation.from_rotvec(about_z)
+            error = rotation.inv() * Rotation.from_quat(poses.attitude[:, index], scalar_first=True)
+            assert np.degrees(error.magnitude()).max() < 0.01
 
 
-def test_surfaces_come_back_to_a_part_of_their_box(scene):
-    found, content = scene
-    surface = found["bodies"][0]["surfaces"][0]
-    parts = unpack(content, surface["vertices"]).reshape(-1, 3) / 65535.0
-    vertices = np.array(surface["low"]) + parts * np.array(surface["size"])
+def test_surfaces_are_accurate_to_a_fraction_of_their_box(scene):
+    encoded, content = scene
+    surface = encoded["bodies"][0]["surfaces"][0]
+    fractions = decoded(content, surface["vertices"]).reshape(-1, 3) / 65535.0
+    vertices = np.array(surface["low"]) + fractions * np.array(surface["size"])
     np.testing.assert_allclose(vertices, TRIANGLE, atol=1e-5)
-    assert unpack(content, surface["faces"]).tolist() == [0.0, 1.0, 2.0]
+    assert decoded(content, surface["faces"]).tolist() == [0.0, 1.0, 2.0]
 
 
 def test_the_readout_is_the_tilt_of_the_flight(scene, flights):
-    found, content = scene
-    tilt = unpack(content, found["flights"][0]["tilt"]).reshape(-1, 2)
+    encoded, content = scene
+    tilt = decoded(content, encoded["flights"][0]["tilt"]).reshape(-1, 2)
     assert tilt[0] == pytest.approx([30.0, 0.0], abs=1e-4)
 
 
-def test_what_stands_on_a_pivot_has_no_floor(flights):
+def test_flights_about_a_pivot_have_no_floor(flights):
     for on_pivot in (False, True):
-        shown_flights = [replace(each, on_pivot=on_pivot) for each in flights]
-        scene = encoded_scene([shown("base_link")], shown_flights, [], Blob())
-        assert {each["floor"] for each in scene["flights"]} == {not on_pivot}
+        pivoted = [replace(flight, on_pivot=on_pivot) for flight in flights]
+        scene = encoded_scene([triangle_body("base_link")], pivoted, [], Blob())
+        assert {flight["floor"] for flight in scene["flights"]} == {not on_pivot}
 
 
-def test_flights_of_which_no_poses_are_known_are_not_replayed(flights):
+def test_flights_without_poses_are_not_replayed(flights):
     bare = [replace(flight, poses=None) for flight in flights]
-    assert encoded_scene([shown("base_link")], bare, [], Blob())["flights"] == []
+    assert encoded_scene([triangle_body("base_link")], bare, [], Blob())["flights"] == []

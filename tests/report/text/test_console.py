@@ -1,4 +1,4 @@
-"""What reaches a terminal: no control characters of strangers, and the progress of steps."""
+"""Terminal output: no control characters from input, and the progress of steps."""
 
 import io
 import time
@@ -11,14 +11,14 @@ from rich.text import Text
 
 from ocs_design.report.text.console import CleaningHook, Steps, without_control_characters
 
-EVIL = "a\x1b[31mb\x9b2Jc\x07d\u202ee\x7f\x85[bold]f[/nope]"
+HOSTILE = "a\x1b[31mb\x9b2Jc\x07d\u202ee\x7f\x85[bold]f[/nope]"
 
 
-def printed(what, **options):
+def printed(renderable, **options):
     stream = io.StringIO()
     console = Console(file=stream, width=80, **options)
     console.push_render_hook(CleaningHook())
-    console.print(what)
+    console.print(renderable)
     return stream.getvalue()
 
 
@@ -29,31 +29,31 @@ def table(text):
 
 
 @pytest.mark.parametrize("make", [Text, lambda text: Panel(Text(text)), table])
-def test_nothing_but_marks_is_left_of_control_characters(make):
-    shown = printed(make(EVIL))
-    assert not set(shown) & set("\x1b\x9b\x07\u202e\x7f\x85")
-    assert "[bold]f[/nope]" in shown
+def test_control_characters_are_replaced(make):
+    output = printed(make(HOSTILE))
+    assert not set(output) & set("\x1b\x9b\x07\u202e\x7f\x85")
+    assert "[bold]f[/nope]" in output
 
 
-def test_colours_of_our_own_are_kept():
+def test_own_colours_are_kept():
     assert "\x1b[31m" in printed(
         Text("a", style="red"), force_terminal=True, color_system="standard"
     )
 
 
-def test_lines_and_letters_of_any_language_stay():
+def test_line_breaks_and_all_scripts_are_kept():
     assert without_control_characters("Größe\tभाषा\n日本 🤖") == "Größe\tभाषा\n日本 🤖"
 
 
-def test_a_step_is_shown_as_it_is_named():
+def test_markup_in_a_step_is_not_interpreted():
     stream = io.StringIO()
     with Steps(Console(file=stream, width=80)).step("read") as step:
         step.note = "[/nope]"
     assert "[/nope]" in stream.getvalue()
 
 
-def shown(fractions):
-    """All that a terminal got of a step that told these fractions."""
+def step_output(fractions):
+    """Terminal output of a step that reports these fractions."""
     screen = io.StringIO()
     console = Console(file=screen, force_terminal=True, width=100, color_system=None)
     with Steps(console).step("look around") as step:
@@ -65,13 +65,16 @@ def shown(fractions):
 
 
 @pytest.mark.parametrize(
-    ("fractions", "left"), [([], False), ([0.01, 0.02, 0.03, 0.04], True), ([0.5, 1.0], None)]
+    ("fractions", "shows_remaining"),
+    [([], False), ([0.01, 0.02, 0.03, 0.04], True), ([0.5, 1.0], None)],
 )
-def test_what_is_left_is_told_where_it_is_known_and_a_step_is_kept_with_its_time(fractions, left):
-    """The time so far is there too, and could be taken for what is left."""
-    screen = shown(fractions)
+def test_steps_show_the_remaining_time_where_known_and_end_with_their_duration(
+    fractions, shows_remaining
+):
+    """The elapsed time is shown too, so the remaining time has to be marked."""
+    screen = step_output(fractions)
     assert "0:00:00" in screen
-    assert left is None or (" left" in screen) is left
+    assert shows_remaining is None or (" left" in screen) is shows_remaining
     last = screen.rstrip().splitlines()[-1]
     assert last.split()[-2:] == ["look", "around"]
     assert " s " in last

@@ -1,4 +1,4 @@
-"""Plots and the validation, as text."""
+"""Plots and validation tables as text."""
 
 import io
 from itertools import product
@@ -25,7 +25,7 @@ ANGLES = st.floats(-np.pi, np.pi)
 
 
 def dots(lines):
-    """Every dot as (column, row) of the fine grid, row 0 at the top."""
+    """Dots as (column, row) of the fine grid, row 0 at the top."""
     offsets = [(0, 0), (0, 1), (0, 2), (1, 0), (1, 1), (1, 2), (0, 3), (1, 3)]
     return {
         (2 * x + dx, 4 * y + dy)
@@ -37,11 +37,11 @@ def dots(lines):
 
 
 def points(*places):
-    """Coordinates of points with no line between them."""
-    return np.array([each for place in places for each in (place, (np.nan, np.nan))]).T
+    """Coordinates of separate points, without lines between them."""
+    return np.array([point for place in places for point in (place, (np.nan, np.nan))]).T
 
 
-def test_every_dot_of_a_cell_and_the_corners_of_a_plot():
+def test_dots_of_a_full_cell_and_of_the_corners():
     cell = points(*product((0.0, 1.0), (0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0)))
     assert braille(*cell, 1, 1) == ["⣿"]
     corners = braille(*points(*product((0.0, 1.0), (0.0, 1.0))), 3, 2)
@@ -50,13 +50,13 @@ def test_every_dot_of_a_cell_and_the_corners_of_a_plot():
 
 
 def test_a_line_has_no_gaps_and_keeps_its_ends():
-    found = dots(braille(np.array([0.0, 1.0]), np.array([0.1, 0.9]), 20, 6))
-    assert {column for column, _ in found} == set(range(40))
+    slanted = dots(braille(np.array([0.0, 1.0]), np.array([0.1, 0.9]), 20, 6))
+    assert {column for column, _ in slanted} == set(range(40))
     upright = dots(braille(np.array([0.5, 0.5]), np.array([0.0, 1.0]), 20, 6))
     assert {row for _, row in upright} == set(range(24))
 
 
-def test_the_frame_is_as_wide_as_it_says():
+def test_the_frame_aligns_its_labels():
     ends = {"x_ends": ("300 ms", "600 ms"), "y_ends": ("8 g", "120 g")}
     rows = frame(4 * [30 * " "], **ends, marks={0: "x", 29: "o"})
     assert len(rows) == 6
@@ -78,14 +78,14 @@ def test_off_level_is_the_angle_between_the_verticals(roll, pitch, yaw):
     assert np.cos(off_level(roll, pitch)) == pytest.approx(up[2], abs=1e-12)
 
 
-def test_bars_are_to_the_scale_of_the_largest_tilt_of_all_and_level_is_a_line_at_the_foot():
+def test_bars_share_the_scale_of_the_largest_tilt():
     assert tilt_plots([flight([0.0, 0.0, 0.0, 0.0])], 4) == (["▁▁▁▁"], LEAST_SPAN)
     (low, high), top = tilt_plots([flight([0.0, 0.1, 0.2]), flight([-0.4, -0.4, -0.4])], 3)
     assert top == pytest.approx(0.4)
     assert (low, high) == ("▁▂▄", "███")
 
 
-def test_a_shorter_flight_ends_earlier_and_the_highest_of_a_bar_shows():
+def test_a_shorter_flight_ends_earlier():
     times = np.linspace(0.0, 0.4, 50)
     (short, long), _ = tilt_plots([flight(times, end=0.5), flight([0.0] * 50)], 8)
     assert len(short) == len(long) == 8
@@ -100,7 +100,7 @@ METRICS = {
 
 
 @pytest.mark.parametrize("width", [80, 110])
-def test_no_line_of_a_flight_is_broken(width):
+def test_flights_are_one_line_each(width):
     runs = [
         ValidationRecord(
             scenario=scenario, ocs=ocs, passed=ocs, reason="", note="", metrics=METRICS
@@ -116,7 +116,7 @@ def test_no_line_of_a_flight_is_broken(width):
 
 
 @pytest.mark.parametrize(
-    ("times", "flown"),
+    ("times", "airborne"),
     [
         ({"lift_off_time": 0.1, "touchdown_time": 0.5}, True),
         ({"lift_off_time": 0.1, "touchdown_time": None}, True),
@@ -126,5 +126,5 @@ def test_no_line_of_a_flight_is_broken(width):
     ],
     ids=["jumps", "stays up", "is shoved", "never leaves the ground", "of an older version"],
 )
-def test_who_flies(times, flown):
-    assert was_in_the_air(*lift_off_and_touchdown(times)) is flown
+def test_flights_are_in_the_air_between_lift_off_and_touchdown(times, airborne):
+    assert was_in_the_air(*lift_off_and_touchdown(times)) is airborne
