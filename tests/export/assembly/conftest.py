@@ -1,4 +1,4 @@
-"""Parts that are alike are meshed once: meshing is most of what a booklet takes."""
+"""Equal parts are meshed once, since meshing takes most of the time of a booklet."""
 
 import pickle
 
@@ -10,13 +10,13 @@ from ocs_design.export.meshes import part_mesh
 
 @pytest.fixture(scope="package", autouse=True)
 def meshed_once():
-    made = {}
+    meshes = {}
 
     def meshed(part, sections):
         key = pickle.dumps((part, sections))
-        if key not in made:
-            made[key] = part_mesh(part, sections)
-        return made[key]
+        if key not in meshes:
+            meshes[key] = part_mesh(part, sections)
+        return meshes[key]
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(placed, "part_mesh", meshed)

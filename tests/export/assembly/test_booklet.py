@@ -1,4 +1,4 @@
-"""The booklet of assembly: everything is in it, legible and where it belongs."""
+"""The assembly booklet: it is complete, legible and agrees with the device."""
 
 import re
 from dataclasses import replace
@@ -46,14 +46,14 @@ def assembly(request):
     return Assembly("solo12", DEVICES[request.param])
 
 
-def test_all_is_on_the_sheet_and_no_text_on_another(assembly):
-    """And large figures are written out."""
+def test_sheets_are_legible_within_their_frames(assembly):
+    """Large figures are written out."""
     assert not re.search(r"\de[+]", " ".join(all_texts(assembly)))
     for page in assembly_pages(assembly):
         check_words(page)
-        # No number is level with the words below its view.
+        # No balloon is level with the caption below its view.
         numbers = [item.center for item in page if isinstance(item, Circle) and item.radius > 1.0]
-        for caption in (each for each in texts_of(page) if re.search(r", 1:\d", each.text)):
+        for caption in (text for text in texts_of(page) if re.search(r", 1:\d", text.text)):
             _, high, _, low = box_of(caption)
             assert not [y for _, y in numbers if high - BALLOON < y < low + BALLOON]
         for item in page:
@@ -74,61 +74,61 @@ def all_texts(assembly):
 
 
 def texts(assembly, title):
-    """Of the chapters whose titles begin so."""
-    found = [each for each in chapters(assembly) if each.title.startswith(title)]
-    assert found
-    return " ".join(text for each in found for text in each.texts)
+    """Text of the chapters whose titles start with `title`."""
+    matching = [chapter for chapter in chapters(assembly) if chapter.title.startswith(title)]
+    assert matching
+    return " ".join(text for chapter in matching for text in chapter.texts)
 
 
 @pytest.mark.parametrize("name", ["caged", "by its face"])
-def test_the_way_that_a_positive_torque_turns_is_told_as_seen_from_the_lid(name):
-    """About its axis by the right hand: whoever looks against the axis sees it counter-clockwise.
-    A lid is on the far side of its module from the motor, in its own mesh."""
+def test_the_sense_of_a_positive_torque_is_given_as_seen_from_the_lid(name):
+    """Right-handed about the axis: counter-clockwise when seen against the axis. The lid is on the
+    side of the module that is away from the motor."""
     device = DEVICES[name]
     (text,) = (text for text in all_texts(Assembly("dog", device)) if "positive torque" in text)
     pieces = {piece.key: piece for piece in Assembly("dog", device).pieces}
-    lid, motor = (pieces[each].mesh.vertices.mean(axis=0) for each in ("lid", "motor"))
+    lid, motor = (pieces[key].mesh.vertices.mean(axis=0) for key in ("lid", "motor"))
     for module in device.modules:
         placed = wheel_placement(module) @ carrier_placement(module)
-        looks = placed.rotation @ (lid - motor)
-        way = "counter-clockwise" if looks @ module.axis > 0.0 else "clockwise"
-        said = re.search(
+        view = placed.rotation @ (lid - motor)
+        sense = "counter-clockwise" if view @ module.axis > 0.0 else "clockwise"
+        match = re.search(
             rf"(?<![\w-])({'counter-clockwise|clockwise'}): [^;]*ocs_{module.name}", text
         )
-        assert said.group(1) == way
+        assert match.group(1) == sense
 
 
-def test_modes_are_swept_for_on_the_robot_and_what_is_near_one_is_told():
-    """An unbalance shakes by r^2 / |1 - r^2| of U / m off a mode; k goes with thickness^3."""
+def test_the_sweep_lists_the_modes_and_warns_near_one():
+    """Response r^2 / |1 - r^2| of U / m beside a mode; the stiffness grows with thickness^3."""
     device = DEVICES["on a plate"]
     device = replace(device, motor=replace(device.motor, no_load_speed=3e3, speed_max=None))
     plate = next(mode for mode in resonances_of(device) if mode.name == "plate")
-    at = 1.07 * 2.0 * np.pi * plate.frequency
-    margins = (Margin("wheel speed", at, 3e3, "rad/s"),)
-    said = texts(Assembly("solo12", device, margins), "Sweep")
-    assert f"from standstill to {rpm(at)}" in said
+    speed = 1.07 * 2.0 * np.pi * plate.frequency
+    margins = (Margin("wheel speed", speed, 3e3, "rad/s"),)
+    text = texts(Assembly("solo12", device, margins), "Sweep")
+    assert f"from standstill to {rpm(speed)}" in text
     for mode in resonances_of(device):
-        assert f"{mode.name} {60.0 * mode.frequency:,.0f} rpm" in said
-    told = re.search(r"is 7% above the plate's mode: .* with ([\d.]+) times .* with (\S+) t", said)
-    near, met = map(float, told.groups())
+        assert f"{mode.name} {60.0 * mode.frequency:,.0f} rpm" in text
+    match = re.search(r"is 7% above the plate's mode: .* with ([\d.]+) times .* with (\S+) t", text)
+    at_speed, at_mode = map(float, match.groups())
     square, mass = 1.07**2, device.module_mass
-    own = balance_of(device).unbalance / mass * square / (square - 1.0) * at**2 / 9.80665
-    assert near == pytest.approx(own, rel=0.06)
-    assert met == pytest.approx(plate.acceleration / 9.80665, rel=0.06)
-    thick = device.plate.thickness
+    expected = balance_of(device).unbalance / mass * square / (square - 1.0) * speed**2 / 9.80665
+    assert at_speed == pytest.approx(expected, rel=0.06)
+    assert at_mode == pytest.approx(plate.acceleration / 9.80665, rel=0.06)
+    thickness = device.plate.thickness
     stiffer = float(
-        re.search(r"make the plate 4 mm thick.*?: ([\d,]+) rpm", said)[1].replace(",", "")
+        re.search(r"make the plate 4 mm thick.*?: ([\d,]+) rpm", text)[1].replace(",", "")
     )
-    assert stiffer == pytest.approx(60.0 * plate.frequency * (4e-3 / thick) ** 1.5, rel=1e-3)
-    # Without flights it is the top speed.
+    assert stiffer == pytest.approx(60.0 * plate.frequency * (4e-3 / thickness) ** 1.5, rel=1e-3)
+    # Without flights the sweep goes up to the top speed.
     unflown = texts(Assembly("solo12", device), "Sweep")
     assert f"to {rpm(3e3)}, its top speed, in about" in unflown
     assert "of the maneuvers" not in unflown
-    # Far from all modes nothing of the kind is told, and without modes there is no sweep.
-    far = (Margin("wheel speed", 2.0 * at, 3e3, "rad/s"),)
-    assert "above the" not in texts(Assembly("solo12", device, far), "Sweep")
+    # Far from all modes there is no warning, and without modes no sweep.
+    higher = (Margin("wheel speed", 2.0 * speed, 3e3, "rad/s"),)
+    assert "above the" not in texts(Assembly("solo12", device, higher), "Sweep")
     slow = replace(device, motor=replace(device.motor, no_load_speed=10.0))
-    assert "Sweep" not in {each.title[:5] for each in chapters(Assembly("solo12", slow))}
+    assert "Sweep" not in {chapter.title[:5] for chapter in chapters(Assembly("solo12", slow))}
 
 
 def test_every_screw_of_the_bill_is_numbered_and_has_a_torque(assembly):
@@ -144,8 +144,8 @@ def test_every_screw_of_the_bill_is_numbered_and_has_a_torque(assembly):
     assert numbers == list(range(1, len(numbers) + 1))
 
 
-def test_what_stands_on_a_mast_is_made_as_it_is_drawn():
-    """Holes for the trunk's screws are in the mast, and the table of pieces is on its sheet."""
+def test_the_booklet_of_a_device_on_a_mast():
+    """The mast has the holes for the trunk's screws, and the table of pieces fits its sheet."""
     device = replace(DEVICES["in a guard ring"], plate=MAST_PLATE)
     assembly = Assembly("dog", device, (), (), "NOT buildable as it stands. It hangs in the air.")
     first = assembly_pages(assembly)[0]
@@ -157,7 +157,7 @@ def test_what_stands_on_a_mast_is_made_as_it_is_drawn():
 
 
 def test_the_plate_is_under_the_foot_with_its_screws_and_sleeves():
-    """Where it stands, its top is the foot's underside; pulled apart they are one below another."""
+    """Assembled, its top is at the foot's underside; exploded, the pieces are below each other."""
     assembly = Assembly("solo12", DEVICES["on a plate"])
     rows = {row.name: (row.quantity, row.file) for row in piece_rows(assembly)}
     assert rows["plate under the feet"] == (1, "plate.pdf")
@@ -167,86 +167,87 @@ def test_the_plate_is_under_the_foot_with_its_screws_and_sleeves():
 
     def low_and_high(pieces, name):
         """Height of the underside and of the top."""
-        meshes = [each.mesh for each in pieces if name in (each.key, getattr(each.key, "name", ""))]
-        down = np.concatenate([mesh.vertices[:, 1] for mesh in meshes])
-        return -down.max(), -down.min()
+        named = [piece for piece in pieces if name in (piece.key, getattr(piece.key, "name", ""))]
+        meshes = [piece.mesh for piece in named]
+        heights = np.concatenate([mesh.vertices[:, 1] for mesh in meshes])
+        return -heights.max(), -heights.min()
 
     placed, apart = assembly.pieces, pulled_apart(assembly.pieces, 0.02)
     assert low_and_high(placed, "plate")[1] == pytest.approx(low_and_high(placed, "foot")[0])
     for above, below in pairwise(("foot on plate", "plate on trunk", "plate", "sleeves")):
         assert low_and_high(apart, above)[0] > low_and_high(apart, below)[1]
-    said = texts(assembly, "Steps")
-    assert "4.50 mm at" in said
-    assert "into the threads of the plate" in said
+    text = texts(assembly, "Steps")
+    assert "4.50 mm at" in text
+    assert "into the threads of the plate" in text
 
 
-def test_pulled_apart_no_piece_touches_its_neighbour():
+def test_exploded_pieces_do_not_touch():
     pieces = Assembly("solo12", DEVICES["caged"]).pieces
     apart = [piece for piece in pulled_apart(pieces, 0.02) if piece.drop is None]
-    for one, other in pairwise(apart):
-        if "foot" not in (one.key, other.key):
-            assert one.mesh.vertices[:, 2].max() < other.mesh.vertices[:, 2].min()
+    for lower, upper in pairwise(apart):
+        if "foot" not in (lower.key, upper.key):
+            assert lower.mesh.vertices[:, 2].max() < upper.mesh.vertices[:, 2].min()
 
 
 @given(st.lists(st.floats(0.0, 200.0), max_size=15))
-def test_numbers_never_stand_on_each_other(wanted):
-    places = spread(sorted(wanted), 8.0, (0.0, 200.0))
+def test_numbers_keep_their_distance(positions):
+    places = spread(sorted(positions), 8.0, (0.0, 200.0))
     assert np.all(np.diff(places) >= 8.0 - 1e-9)
     assert all(place <= 200.0 for place in places)
 
 
-def test_the_guard_is_told_what_it_does_not_do():
+def test_the_guard_text_has_the_wall_that_would_hold_a_burst_rim():
     device = DEVICES["caged"]
     assembly = Assembly("solo12", device)
-    said, burst = texts(assembly, "Safety"), burst_of(device)
+    text, burst = texts(assembly, "Safety"), burst_of(device)
     assert assembly.top_speed == 650.4
-    assert "It does not hold a burst rim" in said
-    # Rounded up: what is told must hold.
-    (ring,) = re.findall(r"a ring of ([\d.]+) mm of mild steel", said)
-    (outer,) = re.findall(r"behind it ([\d.]+) mm of 6061-T6", said)
-    for told, wall in ((ring, burst.steel), (outer, burst.aluminium)):
-        assert 0.0 <= float(told) - 1e3 * wall < 0.1
-    # The mass is that of the wall that is told.
-    weighs, inside, wide = re.search(
-        r"in the drum, (\d+) g each \(([\d.]+) mm inside, ([\d.]+) mm wide", said
+    assert "It does not hold a burst rim" in text
+    # The written wall is rounded up, so that it holds.
+    (ring,) = re.findall(r"a ring of ([\d.]+) mm of mild steel", text)
+    (outer,) = re.findall(r"behind it ([\d.]+) mm of 6061-T6", text)
+    for written, wall in ((ring, burst.steel), (outer, burst.aluminium)):
+        assert 0.0 <= float(written) - 1e3 * wall < 0.1
+    # The mass is that of the written wall.
+    mass, inner, width = re.search(
+        r"in the drum, (\d+) g each \(([\d.]+) mm inside, ([\d.]+) mm wide", text
     ).groups()
-    area = np.pi * float(ring) * (float(inside) + float(ring))
-    assert float(weighs) == pytest.approx(7.85e-3 * area * float(wide), abs=0.6)
+    area = np.pi * float(ring) * (float(inner) + float(ring))
+    assert float(mass) == pytest.approx(7.85e-3 * area * float(width), abs=0.6)
     energy = 0.5 * device.flywheel.spin_inertia * 650.4**2
-    assert f"Each wheel stores {energy:.3g} J at 6,211 rpm, 2 of them {2 * energy:.3g} J" in said
+    assert f"Each wheel stores {energy:.3g} J at 6,211 rpm, 2 of them {2 * energy:.3g} J" in text
 
 
 @pytest.mark.parametrize("wall", [0.0, 1.5e-3, 2.5e-3])
-def test_what_keeps_a_wheel_from_its_top_speed_is_told_beside_its_guard(wall):
-    """The law does, by its voltage; a full battery does not: 1.1^2 of the energy, 1.1^(4/3) of
-    the wall.
+def test_the_guard_text_covers_a_full_battery(wall):
+    """The controller limits the speed by the nominal voltage; at 110 % of it a fragment has 1.1^2
+    of the energy and needs 1.1^(4/3) of the wall.
     """
     device = replace(DEVICES["in a guard ring"], guard_wall=wall)
-    said, burst = texts(Assembly("solo12", device), "Safety"), burst_of(device)
+    text, burst = texts(Assembly("solo12", device), "Safety"), burst_of(device)
     speed, volts = device.motor.no_load_speed, device.motor.bus_voltage
-    assert f"which computes with {volts:g} V, drives no wheel past 6,211 rpm" in said
-    found = re.search(
-        r"battery with 110% .*? to ([\d,]+) rpm, .*? has (\d+) J; .*? takes (\S+)", said
+    assert f"which computes with {volts:g} V, drives no wheel past 6,211 rpm" in text
+    match = re.search(
+        r"battery with 110% .*? to ([\d,]+) rpm, .*? has (\d+) J; .*? takes (\S+)", text
     )
-    rpm, energy, steel = (float(each.replace(",", "")) for each in found.groups())
+    rpm, energy, steel = (float(number.replace(",", "")) for number in match.groups())
     assert rpm == pytest.approx(1.1 * speed * 30.0 / np.pi, abs=0.6)
     assert energy == pytest.approx(1.21 * burst.fragment.energy, rel=0.02)
     assert 0.0 <= steel - 1e3 * 1.1 ** (4.0 / 3.0) * burst.steel < 0.1
-    enough = "and the ring built in is thick enough" in said
+    enough = "and the ring built in is thick enough" in text
     assert enough == (1e3 * wall >= steel - 0.1 and wall > 0.0)
-    assert ("built in is too thin" in said) == (wall > 0.0 and not enough)
+    assert ("built in is too thin" in text) == (wall > 0.0 and not enough)
 
 
-def test_a_guard_ring_is_built_and_told_with_its_limits():
+def test_a_guard_ring_is_built_and_described_with_its_limits():
     device = DEVICES["in a guard ring"]
     assembly = Assembly("solo12", device)
-    said, wall = texts(assembly, "Safety"), burst_of(device).steel
+    text, wall = texts(assembly, "Safety"), burst_of(device).steel
     assert device.guard_wall >= wall
-    assert "The guard ring of 1.5 mm holds that piece" in said
-    assert "no ring of this kind has been tested" in said
+    assert "The guard ring of 1.5 mm holds that piece" in text
+    assert "no ring of this kind has been tested" in text
     rows = {row.name: row for row in piece_rows(assembly)}
     assert rows["guard ring"].file == "guard_ring.stl"
-    # Its epoxy has room between ring and drum, and is on the bill.
+    # The gap between ring and drum is for epoxy, which is on the bill.
     pieces = {piece.key: piece.mesh for piece in assembly.pieces}
     drum = foot_of(device).housing.inner_radius
     assert drum - pieces["guard"].vertices[:, 0].max() == pytest.approx(0.1e-3, abs=5e-5)
@@ -258,52 +259,52 @@ def test_a_guard_ring_is_built_and_told_with_its_limits():
     assert "It does not hold a burst rim" in thin
 
 
-def test_the_balance_says_how_much_is_left_and_what_holes_take():
+def test_the_balance_text_has_residual_unbalance_and_effect_of_holes():
     """U = m 6.3 mm/s / w."""
     device = DEVICES["caged"]
-    said, balance = texts(Assembly("solo12", device), "Balance"), balance_of(device)
-    assert f"at most {1e6 * device.flywheel.mass * 6.3e-3 / 650.4:.2g} g mm" in said
+    text, balance = texts(Assembly("solo12", device), "Balance"), balance_of(device)
+    assert f"at most {1e6 * device.flywheel.mass * 6.3e-3 / 650.4:.2g} g mm" in text
     holes, rim = balance.correction, device.flywheel
     pair = 2.0 * np.pi * holes.hole_radius**2 * holes.depth * rim.density
-    away = (rim.inner_radius + rim.outer_radius) / 2.0
-    assert f"pair this deep removes {1e3 * pair:.2g} g, or {1e6 * pair * away:.2g} g mm" in said
-    assert f"drill of {2e3 * holes.hole_radius:.1f} mm, at most {1e3 * holes.depth:.1f} mm" in said
-    assert balance.centred_by in said
+    radius = (rim.inner_radius + rim.outer_radius) / 2.0
+    assert f"pair this deep removes {1e3 * pair:.2g} g, or {1e6 * pair * radius:.2g} g mm" in text
+    assert f"drill of {2e3 * holes.hole_radius:.1f} mm, at most {1e3 * holes.depth:.1f} mm" in text
+    assert balance.centred_by in text
 
 
-def test_no_limit_of_a_controller_is_asked_for_beyond_what_the_fuse_carries():
+def test_the_current_limit_of_the_controller_is_within_the_fuse():
     device = replace(DEVICES["caged"], supply=Supply(24.0, current_max=500.0, power_max=12000.0))
     margins = (Margin("bus current, drawn", 103.2, 500.0, "A"),)
-    said = " ".join(wiring(device, margins))
-    (fuse,) = (what for name, _, what in wiring_parts(device, margins) if "fuse" in name)
-    assert "set that limit to no less than 104 A" in said
+    text = " ".join(wiring(device, margins))
+    (fuse,) = (purpose for name, _, purpose in wiring_parts(device, margins) if "fuse" in name)
+    assert "set that limit to no less than 104 A" in text
     assert "switch: 104 A" in fuse
     assert "the next usual rating is 125 A" in fuse
 
 
-def test_blades_are_not_said_to_show_what_friction_holds():
-    """Friction torque over g is the unbalance that it holds on level blades."""
+def test_the_unbalance_held_by_friction_is_given():
+    """Friction holds an unbalance of its torque over g on level blades."""
     device = DEVICES["caged"]
     motor = replace(device.motor, no_load_current=0.9, torque_constant=0.0212)
-    said = texts(Assembly("solo12", replace(device, motor=motor)), "Balance")
+    text = texts(Assembly("solo12", replace(device, motor=motor)), "Balance")
     assert (
         f"friction alone holds up to {1e6 * 0.9 * 0.0212 / 9.80665:.2g}".replace("1.9e+03", "1900")
-        in said
+        in text
     )
     motor = replace(motor, no_load_current=None)
     assert "blades" not in texts(Assembly("solo12", replace(device, motor=motor)), "Balance")
 
 
 def test_the_heavy_side_is_opposite_the_point_of_the_four_runs():
-    """Its construction, with a made unbalance and a made response of the foot."""
+    """The construction of the text with an assumed unbalance and response of the foot."""
     unbalance, response, wax = 2.4 * np.exp(0.7j), 0.3 * np.exp(-1.1j), 1.5
     first = abs(response * unbalance)
     around = first * np.exp(1j * np.radians([0.0, 120.0, 240.0]))
     others = abs(response * (unbalance + wax * around / first))
-    # Where the circles meet: differences of their equations are linear.
+    # Intersection of the circles: differences of their equations are linear.
     normals = 2.0 * np.column_stack([(around[0] - around[1:]).real, (around[0] - around[1:]).imag])
-    meet = np.linalg.solve(normals, others[1:] ** 2 - others[0] ** 2)
-    point = complex(*meet)
+    intersection = np.linalg.solve(normals, others[1:] ** 2 - others[0] ** 2)
+    point = complex(*intersection)
     assert abs(point - around) == pytest.approx(others)
     assert -point / abs(point) * wax * first / abs(point) == pytest.approx(unbalance)
     assert "The heavy side is opposite that point" in texts(
@@ -322,62 +323,67 @@ def test_the_heavy_side_is_opposite_the_point_of_the_four_runs():
     ],
 )
 def test_tools_are_those_that_the_design_needs(name, cutter, sizes):
-    """Drills with their taps, strips for the gaps of bonds, and what cuts a key to its length."""
+    """Drills with their taps, strips for the gaps of bonds, and a hex key cut to length."""
     wide = housed_device(DEVICES["caged"].motor.mounting, outer_radius=0.05)
     assembly = Assembly("dog", (DEVICES | {"wide": wide})[name])
-    told = texts(assembly, "Before")
-    told = told[told.index("Tools: ") :]
-    drills = re.findall(r"drill of ([\d.]+) mm(?: and tap (M\d))?", told)
-    strips = {f"strips {each}" for each in re.findall(r"strips of (.*? mm) for gaps", told)}
-    assert {" ".join(each).strip() for each in drills} | strips == sizes
-    assert re.findall(r"short leg of a hex key of ([\d.]+ mm)", told) == [cutter] * bool(cutter)
+    tools = texts(assembly, "Before")
+    tools = tools[tools.index("Tools: ") :]
+    drills = re.findall(r"drill of ([\d.]+) mm(?: and tap (M\d))?", tools)
+    strips = {f"strips {gaps}" for gaps in re.findall(r"strips of (.*? mm) for gaps", tools)}
+    assert {" ".join(drill).strip() for drill in drills} | strips == sizes
+    assert re.findall(r"short leg of a hex key of ([\d.]+ mm)", tools) == [cutter] * bool(cutter)
     steps = " ".join(all_texts(assembly))
     assert ("short leg cut" in steps) == bool(cutter)
     for tool in ("accelerometer", "wax", "damping tape", "steel box", "steel rule"):
-        assert tool in told or tool not in steps
+        assert tool in tools or tool not in steps
 
 
-def test_work_on_the_robot_is_told_once_and_its_numbers_go_on():
-    each, once = (
+def test_steps_for_the_robot_follow_those_for_each_module():
+    per_module, once = (
         chapter for chapter in chapters(Assembly("dog", DEVICES["on a plate"]))
         if chapter.title.startswith("Steps")
     )  # fmt: skip
-    assert (each.title, once.title) == ("Steps, for each module", "Steps, once for the robot")
-    assert (each.first, once.first) == (1, len(each.texts) + 1)
-    (made,) = (text for text in (*each.texts, *once.texts) if text.startswith("Make the plate"))
-    assert made in once.texts
+    assert (per_module.title, once.title) == ("Steps, for each module", "Steps, once for the robot")
+    assert (per_module.first, once.first) == (1, len(per_module.texts) + 1)
+    (plate,) = (
+        text for text in (*per_module.texts, *once.texts) if text.startswith("Make the plate")
+    )
+    assert plate in once.texts
 
 
 @pytest.mark.parametrize(
-    ("name", "says"),
+    ("name", "access"),
     [
         ("caged", "undo the motor's 4 screws (1), unplug it"),
         ("by its face", "behind the wheel: drill the outer face alone"),
         ("unknown threads", ""),
     ],
 )
-def test_a_drill_gets_at_the_rim_as_the_motor_is_held(name, says):
+def test_access_to_the_rim_for_drilling_depends_on_the_mounting(name, access):
     device = DEVICES[name]
-    # Of a wall that can be drilled.
+    # A rim whose wall can be drilled.
     wheel = replace(device.flywheel, inner_radius=device.flywheel.outer_radius - 0.004)
-    said = texts(Assembly("dog", replace(device, flywheel=wheel)), "Balance")
-    assert "in both faces of the rim" in said
-    assert ("The inner face is" in said) == bool(says)
-    assert says in said
+    text = texts(Assembly("dog", replace(device, flywheel=wheel)), "Balance")
+    assert "in both faces of the rim" in text
+    assert ("The inner face is" in text) == bool(access)
+    assert access in text
     if name == "caged":
-        across, window = device.motor.diameter, foot_of(device).housing.mount.pilot_radius
-        assert across < 2.0 * window
-        assert f"its {1e3 * across:.1f} mm pass through the window of {2e3 * window:.1f} mm" in said
+        diameter, window = device.motor.diameter, foot_of(device).housing.mount.pilot_radius
+        assert diameter < 2.0 * window
+        assert (
+            f"its {1e3 * diameter:.1f} mm pass through the window of {2e3 * window:.1f} mm" in text
+        )
 
 
-def test_the_screws_reach_into_the_motor_is_told_beside_what_its_model_draws():
-    """Screws less what they go through; models are of the motor, or of the one that it follows."""
+def test_depths_of_screws_in_the_motor_are_given_with_those_of_a_cad_model():
+    """Length of screws beyond the clamped parts; the CAD model is of the motor or its series."""
     device = DEVICES["caged"]
-    screws = {held.name: each for held, each in Assembly("dog", device).screws.items()}
+    screws = {joint.name: screw for joint, screw in Assembly("dog", device).screws.items()}
     names = [name for name in screws if name.startswith(("wheel", "motor"))]
-    reach = [screws[name].fastening.length - screws[name].fastening.thickness for name in names]
+    depths = [screws[name].fastening.length - screws[name].fastening.thickness for name in names]
     reached = " and ".join(
-        f"{1e3 * deep:.1f} mm ({name})" for name, deep in zip(names, reach, strict=True)
+        f"{1e3 * screw_depth:.1f} mm ({name})"
+        for name, screw_depth in zip(names, depths, strict=True)
     )
     of_rotor = {"": 0.0, "U8 Lite": 3.0, "MN4014": 3.8}
     for motor, model in (
@@ -385,20 +391,23 @@ def test_the_screws_reach_into_the_motor_is_told_beside_what_its_model_draws():
         ({"name": "M1", "source": "threads: those of U8 Lite, of the same series"}, "U8 Lite"),
         ({"name": "MN4014 KV330", "source": "a list"}, "MN4014"),
     ):
-        told = replace(device, motor=replace(device.motor, **motor))
-        said = texts(Assembly("dog", told), "Before")
-        assert f"The screws of this design reach {reached} into it." in said
-        drawn = [of_rotor[model] if name.startswith("wheel") else 3.6 for name in names]
-        figures = " and ".join(f"{depth:.1f} mm" for depth in drawn)
-        assert (f"a CAD model shows {figures}: its modeller" in said) == bool(model)
-        assert f"For {model}, whose" in said or not model
-        # Half a millimetre is to be left below each tip.
-        long = any(1e3 * deep + 0.5 > depth for deep, depth in zip(reach, drawn, strict=True))
-        assert ("these screws are too long" in said) == (bool(model) and long)
+        with_motor = replace(device, motor=replace(device.motor, **motor))
+        text = texts(Assembly("dog", with_motor), "Before")
+        assert f"The screws of this design reach {reached} into it." in text
+        model_depths = [of_rotor[model] if name.startswith("wheel") else 3.6 for name in names]
+        figures = " and ".join(f"{depth:.1f} mm" for depth in model_depths)
+        assert (f"a CAD model shows {figures}: its modeller" in text) == bool(model)
+        assert f"For {model}, whose" in text or not model
+        # Half a millimetre has to remain below each tip.
+        too_long = any(
+            1e3 * screw_depth + 0.5 > depth
+            for screw_depth, depth in zip(depths, model_depths, strict=True)
+        )
+        assert ("these screws are too long" in text) == (bool(model) and too_long)
 
 
-def test_behind_a_gear_nothing_is_fixed_in_a_hole_or_bonded_on_a_shaft():
-    """Its wheels are bought, both of them."""
+def test_a_wheel_on_a_gear_needs_a_joint_of_your_own():
+    """Both wheels of the gear are bought parts."""
     web = DEVICES["caged"].flywheel.web
     device = DEVICES["gear"]
     device = replace(device, flywheel=replace(device.flywheel, web=web))
@@ -416,7 +425,7 @@ def test_behind_a_gear_nothing_is_fixed_in_a_hole_or_bonded_on_a_shaft():
     assert "compound" not in steps
 
 
-def test_on_an_unknown_shaft_no_compound_hardens():
+def test_a_wheel_on_an_unknown_shaft_needs_a_joint_of_your_own():
     steps = texts(Assembly("dog", DEVICES["unknown threads"]), "Steps")
     assert "by a joint of your own: the shaft and the rotor's threads are not in" in steps
     assert "compound" not in steps
@@ -424,29 +433,27 @@ def test_on_an_unknown_shaft_no_compound_hardens():
 
 
 def test_a_rim_of_another_material_is_shrunk_on():
-    """Steel of 12e-6 per K on aluminium: hotter by the tightest fit and 0.03 mm of air."""
+    """The temperature difference makes room for the tightest fit and 0.03 mm of clearance."""
     wheel = DEVICES["caged"].flywheel
     web = replace(wheel.web, material="aluminium-6061-t6", density=2700.0)
     rim = replace(wheel, material="stainless-304", web=web)
     device = replace(DEVICES["caged"], flywheel=rim)
-    said = texts(Assembly("solo12", device), "Steps")
+    text = texts(Assembly("solo12", device), "Steps")
     expansion = materials()["stainless-304"].thermal_expansion
-    hotter = (2.0 * rim_fit(device).most + 0.03e-3) / (2.0 * rim.inner_radius * expansion)
-    assert f"at least {hotter:.0f} K hotter than the web" in said
-    higher = rim.height - web.hub.height
-    part = "hub" if higher > 0.0 else "rim"
-    shim = (
-        f"on a flat plate, the {part} on a shim of {500.0 * abs(higher):.2f} mm, and let both cool"
-    )
-    assert shim in said
+    difference = (2.0 * rim_fit(device).most + 0.03e-3) / (2.0 * rim.inner_radius * expansion)
+    assert f"at least {difference:.0f} K hotter than the web" in text
+    step = rim.height - web.hub.height
+    part = "hub" if step > 0.0 else "rim"
+    shim = f"on a flat plate, the {part} on a shim of {500.0 * abs(step):.2f} mm, and let both cool"
+    assert shim in text
 
 
 def test_the_feet_s_screws_are_in_their_slots():
-    """As far forward as to the side, on the diagonal that the axis leans to."""
+    """The screws are on the diagonal that is nearer to the axis."""
     device = DEVICES["caged"]
-    said = texts(Assembly("solo12", device), "Steps")
-    found = re.search(r"left foot \(([-\d.]+), ([-\d.]+)\) and \(([-\d.]+), ([-\d.]+)\)", said)
-    x1, y1, x2, y2 = map(float, found.groups())
+    text = texts(Assembly("solo12", device), "Steps")
+    match = re.search(r"left foot \(([-\d.]+), ([-\d.]+)\) and \(([-\d.]+), ([-\d.]+)\)", text)
+    x1, y1, x2, y2 = map(float, match.groups())
     line, axis = np.array([x1 - x2, y1 - y2]), device.modules[0].axis[:2]
     assert abs(line[0]) == pytest.approx(abs(line[1]), abs=0.21)
     cosine = abs(line @ axis) / np.linalg.norm(line) / np.linalg.norm(axis)
@@ -455,64 +462,65 @@ def test_the_feet_s_screws_are_in_their_slots():
     assert [(x1 + x2) / 2.0, (y1 + y2) / 2.0] == pytest.approx(position, abs=0.06)
 
 
-def test_open_points_stand_first_and_once():
+def test_open_points_come_first_and_once():
     note = "The feet are 41 mm above the trunk's top"
-    said = texts(Assembly("solo12", DEVICES["unknown threads"], (), (note, note)), "Before")
-    assert said.count(note) == 1
-    assert "The motor's threads are not in the catalogue" in said
+    text = texts(Assembly("solo12", DEVICES["unknown threads"], (), (note, note)), "Before")
+    assert text.count(note) == 1
+    assert "The motor's threads are not in the catalogue" in text
 
 
 @pytest.mark.slow
-def test_what_cannot_be_built_is_told_first_of_all():
+def test_the_booklet_of_an_unbuildable_device_says_so_first():
     """On the first sheet above the pieces, in the title of each, and before all steps."""
     refused = "NOT buildable as it stands. The feet hang in the air; give a place."
     for device in (DEVICES["caged"], DEVICES["on a plate"]):
         threads = trunk_threads(device)
         assembly = Assembly("solo12", device, fitting=(threads, "of the motor"), refused=refused)
         assert all_texts(assembly)[0] == refused
-        said = texts(assembly, "Steps")
-        assert "Do not drill the trunk or cut any part that stands on it until" in said
-        assert "cad/drilling.pdf" not in said
-        # Nor is a thread in it or a tool for it, which a device that is settled has.
+        text = texts(assembly, "Steps")
+        assert "Do not drill the trunk or cut any part that stands on it until" in text
+        assert "cad/drilling.pdf" not in text
+        # Threads in the trunk and tools for them are left out; a buildable device has them.
         before = texts(assembly, "Before")
         assert "Of the motor." in before
         assert "tap M2 for the prints' ears" in before
-        settled = texts(replace(assembly, refused=""), "Before")
-        for words in ("trunk needs threads", "the trunk,", "for the plate"):
-            assert words not in before
-            assert words in settled or device.plate is None
+        buildable = texts(replace(assembly, refused=""), "Before")
+        for part in ("trunk needs threads", "the trunk,", "for the plate"):
+            assert part not in before
+            assert part in buildable or device.plate is None
         for page in assembly_pages(assembly):
             check_words(page)
             title, *_ = (
-                each.text for each in page if isinstance(each, Lettering) and each.height > 3.0
+                item.text for item in page if isinstance(item, Lettering) and item.height > 3.0
             )
             assert title == "Assembly, solo12: NOT buildable as it stands"
         first, *_ = assembly_pages(assembly)
-        (told,) = (each for each in first if isinstance(each, Lettering) and each.text == refused)
-        drawn = [each.center[1] for each in first if isinstance(each, Circle)]
-        assert told.place[1] < min(drawn) - 4.0
+        lettering = [item for item in first if isinstance(item, Lettering)]
+        (verdict,) = (item for item in lettering if item.text == refused)
+        heights = [item.center[1] for item in first if isinstance(item, Circle)]
+        assert verdict.place[1] < min(heights) - 4.0
 
 
-def test_a_controller_is_told_what_to_be_set_to():
-    """tau = k_t i of the current through two lines, which is sqrt(3)/2 of a phase's amplitude."""
+def test_settings_of_the_controller():
+    """tau = k_t i with the current through two lines, sqrt(3)/2 of the amplitude of a phase."""
     device = DEVICES["caged"]
     motor = replace(device.motor, resistance=0.46, no_load_current=0.4)
     assembly = Assembly("solo12", replace(device, motor=motor))
-    said = texts(assembly, "Wiring")
-    k_t, amplitude, ohm, most, fastest = re.search(
+    text = texts(assembly, "Wiring")
+    k_t, amplitude, resistance, current_limit, speed_limit = re.search(
         r"([\d.]+) N m/A through two lines \(([\d.]+) of a .* ([\d.]+) ohm between .* "
         r"limits (\d+) A through two lines and ([\d,]+) rpm",
-        said,
+        text,
     ).groups()
     assert float(k_t) == pytest.approx(motor.torque_constant, rel=1e-3)
     assert float(amplitude) == pytest.approx(3.0**0.5 / 2.0 * motor.torque_constant, rel=1e-3)
-    assert float(ohm) == pytest.approx(motor.resistance, rel=1e-2)
-    asked = motor.torque_limit / motor.torque_constant + 0.4
-    assert 0.0 <= int(most) - asked < 1.0
-    assert fastest == rpm(motor.top_speed).removesuffix(" rpm")
+    assert float(resistance) == pytest.approx(motor.resistance, rel=1e-2)
+    current = motor.torque_limit / motor.torque_constant + 0.4
+    assert 0.0 <= int(current_limit) - current < 1.0
+    assert speed_limit == rpm(motor.top_speed).removesuffix(" rpm")
 
 
-def test_a_wheel_whose_speed_is_not_known_is_not_tested():
+def test_a_wheel_of_unknown_speed_has_no_safety_chapter():
     device = paper_device()
     assert Assembly("solo12", device).top_speed is None
     titles = [chapter.title for chapter in chapters(Assembly("solo12", device))]
@@ -520,88 +528,96 @@ def test_a_wheel_whose_speed_is_not_known_is_not_tested():
 
 
 @pytest.mark.parametrize(
-    ("allowed", "says"),
+    ("allowed", "words"),
     [
         (1.5, "ten seconds, 110%: 11,000 rpm, which takes 26.4 V."),
         (1.05, "ten seconds, 105%: 10,500 rpm, the limit of motor and wheel, which"),
         (1.0, "ten seconds, 100%: 10,000 rpm, the limit of motor and wheel."),
     ],
 )
-def test_the_spin_test_keeps_to_the_speed_that_the_motor_is_allowed(allowed, says):
-    free = 10000.0 * np.pi / 30.0
+def test_the_spin_test_stays_within_the_speed_limit_of_the_motor(allowed, words):
+    no_load_speed = 10000.0 * np.pi / 30.0
     device = next(iter(DEVICES.values()))
     motor = replace(
-        device.motor, no_load_speed=free, speed_max=allowed * free, bus_voltage=24.0, gear="direct"
+        device.motor,
+        no_load_speed=no_load_speed,
+        speed_max=allowed * no_load_speed,
+        bus_voltage=24.0,
+        gear="direct",
     )
     steel = {"material": "stainless-304"}
     wheel = replace(device.flywheel, **steel, web=replace(device.flywheel.web, **steel))
     driven = replace(device, motor=motor, flywheel=wheel)
-    said = texts(Assembly("solo12", driven), "Spin test")
-    assert says in said
-    where, factor = yield_margin(driven, min(1.1, allowed) * free)
-    assert f"yield strength is then {factor:.1f} times the largest stress, in {where}." in said
+    text = texts(Assembly("solo12", driven), "Spin test")
+    assert words in text
+    part, factor = yield_margin(driven, min(1.1, allowed) * no_load_speed)
+    assert f"yield strength is then {factor:.1f} times the largest stress, in {part}." in text
 
 
-@pytest.mark.parametrize("apart", [0.3e-3, 1.5e-3])
-def test_a_hub_that_a_pressed_lid_touches_is_told(apart):
-    """W a^2 / (16 pi D) of PETG with 1.8 GPa and 0.38, 1.2 mm thick, under 10 N."""
+@pytest.mark.parametrize("clearance", [0.3e-3, 1.5e-3])
+def test_a_lid_that_can_be_pressed_onto_the_hub_is_noted(clearance):
+    """Deflection W a^2 / (16 pi D) of PETG, 1.8 GPa and 0.38, 1.2 mm thick, under 10 N."""
     device = DEVICES["caged"]
     housing = foot_of(device).housing
-    sag = 10.0 * housing.inner_radius**2 / (16.0 * np.pi * 1.8e9 * 1.2e-3**3 / 12.0) * (1 - 0.38**2)
+    deflection = (
+        10.0 * housing.inner_radius**2 / (16.0 * np.pi * 1.8e9 * 1.2e-3**3 / 12.0) * (1 - 0.38**2)
+    )
     hub = replace(
-        device.flywheel.web.hub, bolt_head=0.0, height=2.0 * (housing.half_height - 1.2e-3 - apart)
+        device.flywheel.web.hub,
+        bolt_head=0.0,
+        height=2.0 * (housing.half_height - 1.2e-3 - clearance),
     )
     web = replace(device.flywheel.web, hub=hub)
-    near = replace(device, flywheel=replace(device.flywheel, web=web))
-    said = texts(Assembly("solo12", near), "Steps, for each")
-    told = re.search(
-        r"the lid by ([\d.]+) mm, and 10 N on the lid press it in by ([\d.]+) mm", said
+    tall_hub = replace(device, flywheel=replace(device.flywheel, web=web))
+    text = texts(Assembly("solo12", tall_hub), "Steps, for each")
+    match = re.search(
+        r"the lid by ([\d.]+) mm, and 10 N on the lid press it in by ([\d.]+) mm", text
     )
-    assert bool(told) == (apart < sag)
-    if told:
-        assert float(told[1]) == pytest.approx(1e3 * apart, abs=0.05)
-        assert float(told[2]) == pytest.approx(1e3 * sag, abs=0.06)
+    assert bool(match) == (clearance < deflection)
+    if match:
+        assert float(match[1]) == pytest.approx(1e3 * clearance, abs=0.05)
+        assert float(match[2]) == pytest.approx(1e3 * deflection, abs=0.06)
 
 
-@pytest.mark.parametrize(("shaft", "told"), [(None, True), (0.004, False)])
-def test_a_wheel_that_only_its_screws_centre_is_shifted(shaft, told):
-    """In clearance holes it may run out by more than the step allows."""
+@pytest.mark.parametrize(("shaft", "noted"), [(None, True), (0.004, False)])
+def test_a_wheel_centred_by_its_screws_alone_is_noted(shaft, noted):
+    """In clearance holes the run-out may be larger than the step allows."""
     caged = DEVICES["caged"]
     motor = replace(caged.motor, mounting=replace(caged.motor.mounting, shaft_diameter=shaft))
-    said = texts(Assembly("solo12", replace(caged, motor=motor)), "Steps")
-    assert ("Only its screws centre it" in said) == told
+    text = texts(Assembly("solo12", replace(caged, motor=motor)), "Steps")
+    assert ("Only its screws centre it" in text) == noted
 
 
-def test_each_foot_of_a_ring_is_turned_to_its_own_axis():
-    said = texts(Assembly("solo12", TRIAD), "Steps")
-    assert "First scribe a line forward on the trunk through the middle of each foot" in said
-    assert "meets the scale at 0 deg (1), 60 deg (2), 60 deg (3)," in said
-    assert "steel rule" not in said
+def test_each_foot_of_a_triad_is_aligned_with_its_axis():
+    text = texts(Assembly("solo12", TRIAD), "Steps")
+    assert "First scribe a line forward on the trunk through the middle of each foot" in text
+    assert "meets the scale at 0 deg (1), 60 deg (2), 60 deg (3)," in text
+    assert "steel rule" not in text
 
 
-@pytest.mark.parametrize("on", ["caged", "on a plate"])
-def test_opposite_feet_are_turned_by_a_line_between_them_and_checked_by_their_marks(on):
-    """A base reaches over its plate's edge everywhere but towards the other foot."""
-    device = DEVICES[on].at_incidence(np.pi / 6.0)
-    said, foot = texts(Assembly("solo12", device), "Steps"), foot_of(device)
-    under = "trunk" if device.plate is None else "plate"
+@pytest.mark.parametrize("name", ["caged", "on a plate"])
+def test_opposite_feet_are_aligned_by_a_line_and_checked_by_their_marks(name):
+    """The base of a foot extends over the plate's edge except towards the other foot."""
+    device = DEVICES[name].at_incidence(np.pi / 6.0)
+    text, foot = texts(Assembly("solo12", device), "Steps"), foot_of(device)
+    base = "trunk" if device.plate is None else "plate"
     assert (
-        f"First scribe a line on the {under} from the middle of each foot to that of the foot"
-        in said
+        f"First scribe a line on the {base} from the middle of each foot to that of the foot"
+        in text
     )
-    assert "meets the scale at 30 deg from the long mark under its motor, its lid looking" in said
+    assert "meets the scale at 30 deg from the long mark under its motor, its lid looking" in text
     middle, radius = device.modules[0].position[1], foot.base_radius - WALL
-    front, behind = (2e3 * (middle + sense * radius * 0.5) for sense in (-1.0, 1.0))
-    assert f"the 0 marks of opposite feet: {front:.1f} mm in front and {behind:.1f} mm beh" in said
-    # The lid of the left foot looks forward to the left, so its front mark is nearer the middle.
+    ahead, behind = (2e3 * (middle + sense * radius * 0.5) for sense in (-1.0, 1.0))
+    assert f"the 0 marks of opposite feet: {ahead:.1f} mm in front and {behind:.1f} mm beh" in text
+    # The lid of the left foot points forward to the left: its front mark is nearer to the middle.
     assert device.modules[0].axis[0] > 0.0 < device.modules[0].frame[1, 1]
     angles = np.radians([29.5, 30.5])
     change = np.ptp(4e3 * radius * np.sin(angles))
-    assert f"changes the difference by {change:.2g} mm" in said
+    assert f"changes the difference by {change:.2g} mm" in text
 
 
-def test_pedestals_of_two_shapes_stand_beside_each_other():
-    """Each with its screws, and told and numbered by what stands on it."""
+def test_pedestals_of_two_shapes_are_drawn_side_by_side():
+    """Each has its screws and is named by the module on it."""
     caged = DEVICES["caged"]
     foot = foot_of(caged)
     low, high = (
@@ -610,37 +626,37 @@ def test_pedestals_of_two_shapes_stand_beside_each_other():
     )
     device = replace(caged, plate=None, pedestals=(low, high))
     assembly, kinds = Assembly("solo12", device), pedestal_kinds(device)
-    apart = {piece.key: piece.mesh.vertices for piece in pulled_apart(assembly.pieces, 0.01)}
-    along = [np.concatenate([apart[kind.name], apart[kind.screws]])[:, 2] for kind in kinds]
-    assert along[1].max() < along[0].min()
+    exploded = {piece.key: piece.mesh.vertices for piece in pulled_apart(assembly.pieces, 0.01)}
+    extents = [np.concatenate([exploded[kind.name], exploded[kind.screws]])[:, 2] for kind in kinds]
+    assert extents[1].max() < extents[0].min()
     assert [kind.screws.purpose for kind in kinds] == [
         f"pedestal {side} on trunk; longer if the trunk's thread starts deeper"
         for side in ("left", "right")
     ]
     assert {"pedestal left", "pedestal right"} <= {row.name for row in piece_rows(assembly)}
-    # In their places they have one seat.
+    # Assembled, the two shapes are in the same place.
     placed = {piece.key: piece for piece in assembly.pieces}
     assert placed["pedestal_left"].aside == 0.0 > placed["pedestal_right"].aside
 
 
 @pytest.mark.parametrize("device", [AT_30_DEGREES, TRIAD], ids=["pair", "triad"])
-def test_lids_look_where_the_robot_files_have_them(device):
-    """The lid is at the end of the carrier's axis that its wheel's motor is not at."""
-    said = texts(Assembly("solo12", device), "Steps")
+def test_directions_of_lids_are_those_of_the_robot_files(device):
+    """The lid is at the end of the carrier's axis that is away from the motor."""
+    text = texts(Assembly("solo12", device), "Steps")
     for module in device.modules:
-        turn = wheel_placement(module).rotation @ carrier_placement(module).rotation
-        x, y, _ = turn[:, 2]
+        rotation = wheel_placement(module).rotation @ carrier_placement(module).rotation
+        x, y, _ = rotation[:, 2]
         degrees = np.degrees(np.arctan2(abs(y), x))
         side = "left" if y > 0.0 else "right"
-        assert f"{degrees:.4g} deg to the {side} of forward ({module.name})" in said
+        assert f"{degrees:.4g} deg to the {side} of forward ({module.name})" in text
 
 
-def test_the_wheel_is_bonded_as_high_as_it_was_designed():
-    """What is between its rim and the drum's floor, by their meshes."""
+def test_the_wheel_is_bonded_at_its_designed_height():
+    """The gap between rim and drum floor is that of their meshes."""
     device = DEVICES["by its face"]
     assembly = Assembly("solo12", device)
     meshes = {piece.key: piece.mesh.vertices for piece in assembly.pieces}
     rim, drum = meshes["flywheel"], meshes["drum"]
-    below = drum[np.hypot(*drum[:, :2].T) < device.flywheel.inner_radius, 2].max()
-    low = rim[np.hypot(*rim[:, :2].T) > device.flywheel.inner_radius, 2].min()
-    assert f"Strips of {1e3 * (low - below):.1f} mm between" in texts(assembly, "Steps")
+    floor = drum[np.hypot(*drum[:, :2].T) < device.flywheel.inner_radius, 2].max()
+    rim_bottom = rim[np.hypot(*rim[:, :2].T) > device.flywheel.inner_radius, 2].min()
+    assert f"Strips of {1e3 * (rim_bottom - floor):.1f} mm between" in texts(assembly, "Steps")

@@ -1,4 +1,4 @@
-"""Drawn parts: line art and pieces in their places."""
+"""Line art, and pieces in their places."""
 
 from dataclasses import replace
 
@@ -24,31 +24,33 @@ BUILT = ("caged", "by its face", "unknown threads", "in a guard ring")
 
 
 @pytest.mark.parametrize("name", BUILT)
-def test_pieces_and_screws_weigh_what_stands_still(name):
-    """All of them together; what turns was sized without its holes, and is left out."""
+def test_pieces_and_screws_have_the_mass_of_the_carrier(name):
+    """All fixed parts; the rotating parts, sized without their holes, are left out."""
     device = DEVICES[name]
-    turning = {"flywheel", "rim", "hub"}
+    rotating = {"flywheel", "rim", "hub"}
     pieces = sum(
         part.mass_properties().mass
         for name, (part, _) in placed_parts(device).items()
-        if name not in turning
+        if name not in rotating
     )
-    screws = sum(each.fastening.mass for each in motor_mount(device).screwed)
+    screws = sum(screwed.fastening.mass for screwed in motor_mount(device).screwed)
     screws += LID_SCREWS.mass + trunk_screws(device.foot_plate).mass
     assert pieces + screws == pytest.approx(device.carrier.mass, rel=1e-9)
 
 
-def test_wheels_that_lean_on_nothing_have_the_screws_of_their_feet():
-    """No drilling sheet has holes for them, and the booklet is written all the same."""
+def test_tilted_modules_have_the_screws_of_their_feet():
+    """They have no holes in the drilling template, but a booklet."""
     device = device_in_layout(Layout(LayoutName.PYRAMID))
     assert not foot_holes(device)
     (feet,) = (
-        each for each in module_pieces(device) if each.fastening == trunk_screws(device.foot_plate)
+        piece
+        for piece in module_pieces(device)
+        if piece.fastening == trunk_screws(device.foot_plate)
     )
     assert feet.modules == len(device.modules)
 
 
-def test_a_gear_has_a_wheel_at_either_axis():
+def test_a_gear_has_a_wheel_on_each_axis():
     placed = placed_parts(DEVICES["gear"])
     assert {"gear", "gear_2", "motor"} <= set(placed)
     heights = [placed[name][1].position[1] for name in ("gear", "gear_2")]
@@ -60,27 +62,27 @@ def test_a_gear_has_a_wheel_at_either_axis():
 def _overlap(a, b):
     """Volume that two pieces share [m^3]."""
     first, second = (
-        Manifold(Mesh64(each.mesh.vertices, each.mesh.triangles.astype(np.uint64)))
-        for each in (a, b)
+        Manifold(Mesh64(piece.mesh.vertices, piece.mesh.triangles.astype(np.uint64)))
+        for piece in (a, b)
     )
     return float((first ^ second).volume())
 
 
 @pytest.mark.parametrize("name", BUILT)
-def test_screws_cut_into_nothing_but_what_their_threads_are_in(name):
-    """All of them: only into one piece each, and there only as far as they reach beyond what they
-    hold. A head in a part, or a tip in two, shares more, or with another."""
+def test_screws_overlap_only_the_part_with_their_thread(name):
+    """The overlap is with one piece, over the length beyond the clamped parts. A head within a part
+    or a tip in two parts would overlap more."""
     pieces = module_pieces(DEVICES[name])
-    for screw in (each for each in pieces if each.fastening is not None):
-        held = screw.fastening
-        shared = [_overlap(screw, each) for each in pieces if each.fastening is None]
-        in_thread = held.length - held.thickness
-        most = held.count * np.pi / 4.0 * held.screw.diameter**2 * in_thread
-        assert sum(each > 1e-12 for each in shared) <= 1, held.purpose
-        assert max(shared) <= most * (1.0 + 1e-6), held.purpose
+    for screw in (piece for piece in pieces if piece.fastening is not None):
+        fastening = screw.fastening
+        shared = [_overlap(screw, piece) for piece in pieces if piece.fastening is None]
+        in_thread = fastening.length - fastening.thickness
+        limit = fastening.count * np.pi / 4.0 * fastening.screw.diameter**2 * in_thread
+        assert sum(volume > 1e-12 for volume in shared) <= 1, fastening.purpose
+        assert max(shared) <= limit * (1.0 + 1e-6), fastening.purpose
 
 
-def test_a_shaft_reaches_into_the_hub_that_is_bonded_on_it():
+def test_the_shaft_fills_the_hub_that_is_bonded_on_it():
     parts = placed_parts(DEVICES["by its face"])
     (body, shaft), place = parts["motor"][0].joined, parts["motor"][1]
     wheel = DEVICES["by its face"].flywheel
@@ -92,7 +94,7 @@ def test_a_shaft_reaches_into_the_hub_that_is_bonded_on_it():
 
 @pytest.mark.parametrize("length", [0.003, 0.009, 0.05])
 def test_a_shaft_is_cut_where_it_would_run_into_the_lid(length):
-    """Whatever its length it is clear of the lid, and one that is cut still fills the hub."""
+    """A shaft of any length is clear of the lid, and a cut one still fills the hub."""
     device = DEVICES["by its face"]
     mounting = replace(device.motor.mounting, shaft_length=length)
     device = replace(device, motor=replace(device.motor, mounting=mounting))
@@ -103,18 +105,18 @@ def test_a_shaft_is_cut_where_it_would_run_into_the_lid(length):
     assert tip < lid
     front = placed_parts(device)["motor"][0].joined[0].profile[:, 1].max()
     cut = length - (tip - front)
-    told = [note for note in drive_notes(device) if "run into the lid" in note]
+    notes = [note for note in drive_notes(device) if "run into the lid" in note]
     if front + length <= lid - CLEARANCE:
         assert cut == pytest.approx(0.0, abs=1e-9)
-        assert not told
+        assert not notes
     else:
         assert tip == pytest.approx(hub)
-        (note,) = told
+        (note,) = notes
         assert f"cut {1e3 * cut:.3g} mm off" in note
 
 
-def test_the_screws_heads_stand_on_what_they_hold():
-    """Those of the lid: their tips are in the drum, their heads above the lid."""
+def test_heads_of_screws_are_on_the_clamped_part():
+    """Screws of the lid: the tips are in the drum, the heads above the lid."""
     pieces = {piece.key: piece for piece in module_pieces(DEVICES["caged"])}
     lid = pieces["lid"].mesh.vertices[:, 2]
     along = pieces[LID_SCREWS].mesh.vertices[:, 2]
@@ -131,9 +133,9 @@ def box(size=0.02, low=0.0):
     return solid_mesh(Prism(square, low, low + size))
 
 
-def seen(*meshes, view=VIEW):
-    turned = [Mesh(mesh.vertices @ view.T, mesh.triangles) for mesh in meshes]
-    return visible_lines(turned)
+def visible_in(*meshes, view=VIEW):
+    rotated = [Mesh(mesh.vertices @ view.T, mesh.triangles) for mesh in meshes]
+    return visible_lines(rotated)
 
 
 def length(chains):
@@ -152,23 +154,23 @@ def test_the_view_is_a_rotation_with_up_upright():
     assert y > 0.0
 
 
-def test_of_a_cube_nine_edges_are_seen():
-    """Three of each direction: the three that meet in the hidden corner are not."""
-    (chains,) = seen(box())
+def test_nine_edges_of_a_cube_are_visible():
+    """Three of each direction; those that meet in the hidden corner are not visible."""
+    (chains,) = visible_in(box())
     assert length(chains) == pytest.approx(3.0 * 0.02 * sum(projected(np.eye(3))), rel=0.02)
 
 
-def test_what_is_behind_another_is_not_seen():
+def test_a_part_behind_another_is_hidden():
     near, far = box(), box(0.012)
     behind = Mesh(far.vertices - 0.05 * VIEW[2], far.triangles)
-    front, hidden = seen(near, behind)
-    assert length(front) == pytest.approx(length(seen(near)[0]))
+    front, hidden = visible_in(near, behind)
+    assert length(front) == pytest.approx(length(visible_in(near)[0]))
     assert length(hidden) < 0.05 * length(front)
 
 
 def test_a_cylinder_shows_its_end_and_its_sides():
-    """Seen across its axis: two sides, a straight line for each end."""
-    (chains,) = seen(
+    """In a side view: two sides and a straight line for each end."""
+    (chains,) = visible_in(
         solid_mesh(hollow_cylinder(0.0, 0.01, 0.0, 0.03), 64),
         view=view_of((1.0, 0.0, 0.0), (0.0, 0.0, 1.0)),
     )

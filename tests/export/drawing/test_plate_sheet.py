@@ -1,4 +1,4 @@
-"""The drawing of the plate under the feet: its holes, sizes and mast, from the sheet alone."""
+"""The drawing of the plate under the feet: holes, sizes and mast, read from the sheet."""
 
 import re
 from dataclasses import replace
@@ -27,28 +27,28 @@ def sheets_of(plate):
     return plate_sheets(replace(DEVICES["on a plate"], plate=plate), "dog")
 
 
-def test_all_words_are_within_the_frame_and_none_on_another(plate):
+def test_texts_are_legible_within_the_frame(plate):
     pages = sheets_of(plate)
     assert len(pages) == (1 if plate.mast is None else 2)
     for page in pages:
         check_words(page)
 
 
-def test_the_table_has_every_hole_of_one_plate_where_it_is(plate):
-    """Read as a machinist does: a row is what stands at one height."""
+def test_the_table_has_every_hole_of_a_plate_with_its_place(plate):
+    """A row of the table consists of the texts at one height."""
     rows = {}
     for item in texts(sheets_of(plate)[0]):
         rows.setdefault(round(item.place[1], 3), []).append((item.place[0], item.text))
     cells = [[text for _, text in sorted(row)] for row in rows.values()]
     holes = [row for row in cells if re.fullmatch(r"[ABC]\d", row[0]) and len(row) == 4]
-    found = {(row[1], float(row[2]), float(row[3])) for row in holes}
-    own = plate.each[0]
-    wanted = {("M3", *np.round(1e3 * np.array(at), 2)) for at in own.feet}
+    listed = {(row[1], float(row[2]), float(row[3])) for row in holes}
+    single = plate.each[0]
+    expected = {("M3", *np.round(1e3 * np.array(at), 2)) for at in single.feet}
     if plate.mast is None:
-        wanted |= {("Ø3.4", *np.round(1e3 * np.array(at), 2)) for at in own.trunk}
-    for y in (own.across, -own.across) if own.window > 0.0 else ():
-        wanted.add((f"Ø{2e3 * own.window:.4g}", 0.0, round(1e3 * y, 2)))
-    assert found == wanted
+        expected |= {("Ø3.4", *np.round(1e3 * np.array(at), 2)) for at in single.trunk}
+    for y in (single.across, -single.across) if single.window > 0.0 else ():
+        expected.add((f"Ø{2e3 * single.window:.4g}", 0.0, round(1e3 * y, 2)))
+    assert listed == expected
 
 
 GO2 = replace(
@@ -61,11 +61,11 @@ GO2 = replace(
     feet=((0.0238, 0.11273), (-0.0238, 0.06513), (0.0238, -0.11273), (-0.0238, -0.06513)),
     trunk=tuple((x, y) for x in (0.015, -0.015) for y in (0.0383, -0.0383)),
 )
-"""The plate of Unitree's Go2, drawn at half its size: holes are near its edges."""
+"""The plate of Unitree's Go2, drawn at half its size, with holes near its edges."""
 
 
 @pytest.mark.parametrize("plate", [PLATE, GO2], ids=["large", "at half its size"])
-def test_no_name_of_a_hole_stands_on_an_outline(plate):
+def test_names_of_holes_are_clear_of_outlines(plate):
     page = sheets_of(plate)[0]
     (ring,) = (item for item in page if isinstance(item, Polyline) and item.pen is OUTLINE)
     sides = [Line(*ends) for ends in pairwise(ring.points)]
@@ -79,22 +79,22 @@ def test_no_name_of_a_hole_stands_on_an_outline(plate):
 
 
 def test_the_outline_drawn_is_that_of_the_plate(plate):
-    """Its area at the sheet's scale, less that of the holes, is the volume over the thickness."""
+    """The area at the sheet's scale, without the holes, is the volume over the thickness."""
     page = sheets_of(plate)[0]
     scale = next(item.text for item in texts(page) if re.fullmatch(r"\d+:\d+", item.text))
     paper, part = map(int, scale.split(":"))
     (ring,) = (item for item in page if isinstance(item, Polyline) and item.pen is OUTLINE)
     x, y = np.array(ring.points).T
     area = abs(np.sum(x[:-1] * y[1:] - x[1:] * y[:-1])) / 2.0
-    cut = sum(
+    holes = sum(
         np.pi * item.radius**2
         for item in page
         if isinstance(item, Circle) and item.center[1] < 140.0
     )
-    own = plate.each[0]
-    volume = part_manifold(plate_part(own)).volume()
-    assert (area - cut) * (part / paper) ** 2 == pytest.approx(
-        1e6 * volume / own.thickness, rel=1e-3
+    single = plate.each[0]
+    volume = part_manifold(plate_part(single)).volume()
+    assert (area - holes) * (part / paper) ** 2 == pytest.approx(
+        1e6 * volume / single.thickness, rel=1e-3
     )
 
 
@@ -123,34 +123,36 @@ def test_plates_that_differ_have_a_sheet_each(inwards):
 
 
 def test_the_sheet_rounds_the_sizes_as_the_bill_does(plate):
-    """Half a hundredth of a millimetre, as Unitree's G1 has it, came out as 336.80 and 336.79."""
-    for each in (plate, replace(plate, radius=0.0478275, across=0.1205675)):
-        said = [item.text for item in texts(sheets_of(each)[0])]
-        found = {float(text) for text in said if re.fullmatch(r"[\d.]+", text)}
-        assert {float(f"{1e3 * size:.2f}") for size in each.sizes} <= found
+    """Once half a hundredth of a millimetre, as on Unitree's G1, gave 336.80 and 336.79."""
+    for variant in (plate, replace(plate, radius=0.0478275, across=0.1205675)):
+        words = [item.text for item in texts(sheets_of(variant)[0])]
+        numbers = {float(text) for text in words if re.fullmatch(r"[\d.]+", text)}
+        assert {float(f"{1e3 * size:.2f}") for size in variant.sizes} <= numbers
 
 
 def test_a_mast_has_the_lengths_that_it_is_cut_to():
-    said = " ".join(item.text for item in texts(sheets_of(MAST_PLATE)[1]))
+    text = " ".join(item.text for item in texts(sheets_of(MAST_PLATE)[1]))
     mast = MAST_PLATE.mast
-    assert f"An upright of {1e3 * (mast.high + mast.below):.4g} and 2 arms" in said
-    assert f"arms of {1e3 * (mast.face - mast.side + MAST_PLATE.neck):.5g}" in said
+    assert f"An upright of {1e3 * (mast.high + mast.below):.4g} and 2 arms" in text
+    assert f"arms of {1e3 * (mast.face - mast.side + MAST_PLATE.neck):.5g}" in text
     for z in (mast.high, -mast.below, -0.0689, -0.0889, 0.0):
-        assert f"z = {1e3 * z:.2f}" in said
+        assert f"z = {1e3 * z:.2f}" in text
 
 
 def test_without_a_plate_there_is_no_sheet():
     assert plate_sheets(DEVICES["caged"], "dog") == []
 
 
-def test_a_plate_that_is_not_to_be_made_says_so_first(plate):
-    """At the top of each sheet, and why in its first note, which leaves the others their room."""
+def test_the_drawing_of_an_unbuildable_plate_says_so_first(plate):
+    """At the top of each sheet; the first note has the reason and leaves room for the others."""
     device = replace(DEVICES["on a plate"], plate=plate)
-    many = " ".join(["NOT buildable as it stands."] + ["One thing; another that cures it."] * 40)
-    sheets = (plate_sheets(device, "dog", refused) for refused in (REFUSED, many))
+    long_reason = " ".join(
+        ["NOT buildable as it stands."] + ["One thing; another that cures it."] * 40
+    )
+    sheets = (plate_sheets(device, "dog", refused) for refused in (REFUSED, long_reason))
     for short, long in zip(*sheets, strict=True):
         check_words(short)
         assert_refused(short)
         check_words(long)
-        said = " ".join(item.text for item in texts(long))
-        assert "cures it. cad/assembly.pdf has all open points." in said
+        text = " ".join(item.text for item in texts(long))
+        assert "cures it. cad/assembly.pdf has all open points." in text

@@ -1,4 +1,4 @@
-"""Nothing on the sheet covers anything else, whatever the wheel."""
+"""The drawing of a wheel: legible for any wheel, with its sizes, tolerances, mass and notes."""
 
 import math
 import re
@@ -49,7 +49,7 @@ def words(wheel):
 @given(drawings())
 @example(CROWDED)
 def test_any_sheet_is_legible_within_its_frame_and_well_formed(drawing):
-    """No text stands on another or on a line; both formats are the same bytes every time."""
+    """No text covers another one or a line; both formats are reproducible."""
     items = wheel_sheet(drawing)
     boxes = [(text, box_of(text)) for text in texts(items)]
     for (one, first), (other, second) in combinations(boxes, 2):
@@ -67,13 +67,13 @@ def test_any_sheet_is_legible_within_its_frame_and_well_formed(drawing):
     assert drawn == draw_wheel(drawing)
 
 
-def test_a_wheel_that_is_not_to_be_made_says_so_first():
+def test_the_drawing_of_an_unbuildable_wheel_says_so_first():
     assert_refused(wheel_sheet(replace(FLAT, refused=REFUSED)))
     assert "NOT" not in " ".join(words(FLAT))
 
 
 @pytest.mark.parametrize(
-    ("drawing", "once", "besides"),
+    ("drawing", "once", "notes"),
     [
         (
             FLAT,
@@ -92,39 +92,39 @@ def test_a_wheel_that_is_not_to_be_made_says_so_first():
     ],
     ids=["shrunk on", "one piece"],
 )
-def test_every_size_and_hole_is_written_once(drawing, once, besides):
-    found = words(drawing)
+def test_every_size_and_hole_is_written_once(drawing, once, notes):
+    written = words(drawing)
     for label in once:
-        assert found.count(label) == 1, label
-    assert set(besides) <= set(found)
+        assert written.count(label) == 1, label
+    assert set(notes) <= set(written)
 
 
-def test_the_webs_thickness_is_measured_where_no_hole_is():
-    cut, layout = HOLED.wheel.web.holes, lay_out(HOLED.wheel)
-    shown = section_view(HOLED.wheel, layout)
+def test_the_dimension_of_the_web_is_clear_of_its_holes():
+    holes, layout = HOLED.wheel.web.holes, lay_out(HOLED.wheel)
+    view = section_view(HOLED.wheel, layout)
     ((_, y),) = (
-        each.place for each in shown if isinstance(each, Lettering) and each.text == "1.50 ±0.05"
+        item.place for item in view if isinstance(item, Lettering) and item.text == "1.50 ±0.05"
     )
-    off = abs(AXIS_Y - y) - layout.scale(cut.circle_radius)
-    assert abs(off) > layout.scale(cut.hole_radius) + 1.0
+    offset = abs(AXIS_Y - y) - layout.scale(holes.circle_radius)
+    assert abs(offset) > layout.scale(holes.hole_radius) + 1.0
 
 
 @pytest.mark.parametrize("drawing", [FLAT, HOLED], ids=["shrunk on", "one piece"])
-def test_all_tolerances_together_move_the_inertia_by_what_the_note_says(drawing):
-    """Those of the web and of sizes that the sheet does not tolerate too, by central differences.
+def test_the_note_has_the_change_of_inertia_by_all_tolerances(drawing):
+    """Central differences for all sizes, also those without a tolerance on the sheet.
 
-    IT9 of 80 mm is 74 um, of 60 mm too; IT7 of 78.4 mm 30 um; IT11 of 10 mm 90 um, of 3.05 mm 75;
-    IT12 of 1.5 mm 100. As written, half of it, in whole hundredths.
+    IT9 of 80 and 60 mm is 74 um; IT7 of 78.4 mm 30 um; IT11 of 10 mm 90 um, of 3.05 mm 75 um; IT12
+    of 1.5 mm 100 um. Half of it is written, in whole hundredths of a millimetre.
     """
     wheel, step = drawing.wheel, 1e-6
 
     def inertia(**changes):
         parts = {"rim": wheel.rim, "web": wheel.web, "hub": wheel.web.hub}
-        for key, by in changes.items():
+        for key, change in changes.items():
             part, size = key.split("__")
-            parts[part] = replace(parts[part], **{size: getattr(parts[part], size) + by})
-        hubbed = replace(parts["web"], hub=parts["hub"])
-        return total(wheel_parts(Wheel(parts["rim"], hubbed))).inertia[2, 2]
+            parts[part] = replace(parts[part], **{size: getattr(parts[part], size) + change})
+        web = replace(parts["web"], hub=parts["hub"])
+        return total(wheel_parts(Wheel(parts["rim"], web))).inertia[2, 2]
 
     shrunk = drawing is FLAT
     tolerances = {
@@ -135,40 +135,42 @@ def test_all_tolerances_together_move_the_inertia_by_what_the_note_says(drawing)
         "hub__radius": 0.2e-3 / 2.0,
         "hub__height": 0.2e-3,
     }
-    off = sum(
+    change = sum(
         abs(inertia(**{size: step}) - inertia(**{size: -step})) / (2.0 * step) * tolerance
         for size, tolerance in tolerances.items()
     )
     if not shrunk:
         ring = wheel.web.holes
-        six = 6.0 * np.pi * 0.0015 * 2700.0
-        square = ring.circle_radius**2
-        off += six * np.ptp([a**2 * (square + a**2 / 2.0) for a in (5.9e-3, 6.1e-3)]) / 2.0
-    expected = off / inertia()
+        area = 6.0 * np.pi * 0.0015 * 2700.0
+        radius_square = ring.circle_radius**2
+        change += (
+            area * np.ptp([a**2 * (radius_square + a**2 / 2.0) for a in (5.9e-3, 6.1e-3)]) / 2.0
+        )
+    expected = change / inertia()
     # Chamfers, and the bolts' holes, are not in the closed form.
     assert inertia_error(wheel) == pytest.approx(expected, rel=0.05)
     assert f"within ±{100.0 * inertia_error(wheel):.2g}" in " ".join(words(drawing))
 
 
 def test_the_title_block_says_mass_and_inertia():
-    found = words(FLAT)
+    written = words(FLAT)
     mass, inertia = (1e3 * sum(FLAT.masses), 1e6 * FLAT.mass_properties.inertia[2, 2])
-    assert f"{mass:.4g} g" in found
-    assert f"{inertia:.4g} kg mm²" in found
+    assert f"{mass:.4g} g" in written
+    assert f"{inertia:.4g} kg mm²" in written
     # A rim of 8000 kg/m^3 and a web of 2700 kg/m^3, as cylinders: chamfers take 2 % of the rim.
-    assert mass == pytest.approx(cylinders(FLAT.wheel), rel=0.02)
-    assert "1:1" in found
-    assert "9f3c0a1b2d4e" in found
+    assert mass == pytest.approx(mass_of_cylinders(FLAT.wheel), rel=0.02)
+    assert "1:1" in written
+    assert "9f3c0a1b2d4e" in written
 
 
 def test_figures_of_a_large_wheel_are_written_out():
-    """As of Unitree's G1: 12,800 kg mm²; here 10^5 kg and 10^5 kg m²."""
-    found = words(CROWDED)
-    assert not [text for text in found if re.search(r"\de\+", text)]
+    """Unitree's G1 has 12,800 kg mm²; here 10^5 kg and 10^5 kg m²."""
+    written = words(CROWDED)
+    assert not [text for text in written if re.search(r"\de\+", text)]
 
 
-def cylinders(wheel):
-    """Mass without chamfers [g]."""
+def mass_of_cylinders(wheel):
+    """Mass of a wheel of cylinders, without chamfers [g]."""
     rim, web = wheel.rim, wheel.web
     hub = web.hub
     discs = [
@@ -182,9 +184,9 @@ def cylinders(wheel):
 
 def test_the_balance_note_has_the_residual_unbalance():
     # 6.3 mm/s / 750 rad/s = 8.4 um.
-    said = " ".join(words(FLAT)).replace("\N{NO-BREAK SPACE}", " ")
-    assert "G 6.3 (ISO 21940-11) at 7,162 rpm" in said
-    assert f"{8.4 * sum(FLAT.masses):.3g} g mm (e = 8.4 µm)" in said
+    text = " ".join(words(FLAT)).replace("\N{NO-BREAK SPACE}", " ")
+    assert "G 6.3 (ISO 21940-11) at 7,162 rpm" in text
+    assert f"{8.4 * sum(FLAT.masses):.3g} g mm (e = 8.4 µm)" in text
 
 
 def test_one_piece_is_hatched_as_one_and_has_no_list_of_parts():
@@ -197,29 +199,29 @@ def test_one_piece_is_hatched_as_one_and_has_no_list_of_parts():
 
 
 def slopes(wheel):
-    """Of the hatching: -1 falls to the right on paper, 1 rises."""
-    found = set()
+    """Slopes of the hatching: -1 falls to the right on paper, 1 rises."""
+    senses = set()
     for item in wheel_sheet(wheel):
         if isinstance(item, Line):
             across, down = item.end[0] - item.start[0], item.end[1] - item.start[1]
             if item.pen.width < 0.3 and abs(abs(across) - abs(down)) < 1e-9 and across:
-                found.add(-1 if across * down > 0 else 1)
-    return found
+                senses.add(-1 if across * down > 0 else 1)
+    return senses
 
 
 def test_the_front_view_is_to_scale():
     radii = [item.radius for item in wheel_sheet(FLAT) if isinstance(item, Circle)]
-    for radius in (41.3, 39.2, 12.0, 4.0, 1.7, 8.0):
-        assert any(abs(radius - each) < 1e-9 for each in radii), radius
+    for expected in (41.3, 39.2, 12.0, 4.0, 1.7, 8.0):
+        assert any(abs(expected - radius) < 1e-9 for radius in radii), expected
 
 
 def test_rim_and_web_of_a_shrink_fit_have_limits_of_their_own():
-    """42 to 80 um of interference over 78.4 mm, of which grade 6 is 19 um each."""
+    """Interference of 42 to 80 um over 78.4 mm, of which IT6 takes 19 um for each part."""
     fit = replace(FLAT, interference=(42e-6, 80e-6))
-    found = words(fit)
-    assert "Rim, bore Ø78.400 to 78.419" in found
-    assert "Web with hub, Ø78.461 to 78.480" in found
-    assert "Ra 3.2, all fits Ra 1.6 (ISO 21920)" in found
+    written = words(fit)
+    assert "Rim, bore Ø78.400 to 78.419" in written
+    assert "Web with hub, Ø78.461 to 78.480" in written
+    assert "Ra 3.2, all fits Ra 1.6 (ISO 21920)" in written
     assert "Ra 3.2, bore Ra 1.6 (ISO 21920)" in words(HOLED)
     assert {"Rim", "Web with hub"} <= set(words(FLAT))
 
@@ -227,46 +229,47 @@ def test_rim_and_web_of_a_shrink_fit_have_limits_of_their_own():
 def test_names_are_escaped_in_both_formats():
     drawn = draw_wheel(replace(FLAT, robot='<a> & (b) \\ "é" 机'))
     root = ET.fromstring(drawn["svg"])
-    assert '<a> & (b) \\ "é" ?' in [each.text for each in root]
+    assert '<a> & (b) \\ "é" ?' in [element.text for element in root]
     assert rb'(<a> & \(b\) \\ "\351" ?) Tj' in drawn["pdf"]
 
 
 def test_both_formats_show_the_same_texts():
     drawn = draw_wheel(FLAT)
     root = ET.fromstring(drawn["svg"])
-    shown = [each.text for each in root if each.tag.endswith("text") and each.text]
-    written = re.findall(rb"\(((?:[^()\\]|\\.)*)\) Tj", drawn["pdf"])
-    plain = (re.sub(rb"\\([()\\])", rb"\1", each) for each in written)
+    texts = [element for element in root if element.tag.endswith("text")]
+    in_svg = [text.text for text in texts if text.text]
+    strings = re.findall(rb"\(((?:[^()\\]|\\.)*)\) Tj", drawn["pdf"])
+    plain = (re.sub(rb"\\([()\\])", rb"\1", string) for string in strings)
     decoded = [
-        re.sub(rb"\\(\d{3})", lambda code: bytes([int(code[1], 8)]), each).decode("cp1252")
-        for each in plain
+        re.sub(rb"\\(\d{3})", lambda code: bytes([int(code[1], 8)]), string).decode("cp1252")
+        for string in plain
     ]
-    assert shown == [each for each in decoded if each]
-    assert shown == [
+    assert in_svg == [text for text in decoded if text]
+    assert in_svg == [
         item.text for item in wheel_sheet(FLAT) if isinstance(item, Lettering) and item.text
     ]
 
 
 @pytest.mark.parametrize("drawing", [FLAT, HOLED], ids=["shrunk on", "one piece"])
-def test_radii_in_the_corners_add_the_inertia_that_is_told(drawing):
-    """A rounded corner of radius R, integrated over its width: 2 pi rho x^3 dz."""
+def test_the_note_has_the_inertia_of_rounded_corners(drawing):
+    """The inertia 2 pi rho x^3 dz of a rounded corner of radius R, integrated over its width."""
     wheel = drawing.wheel
     web, rim = wheel.web, wheel.rim
     radius, share = inside_corners(wheel)
     corners = [(web.hub.radius, 1.0)] + [(rim.inner_radius, -1.0)] * (not wheel.shrunk_on)
 
-    def ring(off, at, way):
-        left = radius - math.sqrt(radius**2 - (radius - off) ** 2)
-        return 2.0 * math.pi * web.density * (at + way * off) ** 3 * left
+    def ring(offset, corner, sense):
+        height = radius - math.sqrt(radius**2 - (radius - offset) ** 2)
+        return 2.0 * math.pi * web.density * (corner + sense * offset) ** 3 * height
 
     added = [2.0 * quad(ring, 0.0, radius, args=corner)[0] for corner in corners]
-    whole = drawing.mass_properties.inertia[2, 2]
+    inertia = drawing.mass_properties.inertia[2, 2]
     assert radius == pytest.approx(0.4e-3)
-    assert share == pytest.approx(sum(added) / whole, rel=1e-2)
+    assert share == pytest.approx(sum(added) / inertia, rel=1e-2)
     assert f"(+{100.0 * share:.2g} % of inertia)" in " ".join(words(drawing))
 
 
-def test_corners_are_no_larger_than_the_step_that_they_are_in():
+def test_rounded_corners_are_at_most_half_their_step():
     low, level = (
         replace(WEB, hub=replace(WEB.hub, height=WEB.thickness + step)) for step in (0.5e-3, 0.0)
     )
@@ -274,31 +277,31 @@ def test_corners_are_no_larger_than_the_step_that_they_are_in():
     assert inside_corners(replace(FLAT.wheel, web=level)) == (0.0, 0.0)
 
 
-def test_the_hub_says_what_holds_it():
+def test_the_hub_has_a_note_on_its_joint():
     bare = replace(FLAT, wheel=Wheel(RIM, replace(WEB, hub=replace(WEB.hub, bolts=0))))
-    for drawing, said in (
+    for drawing, note in (
         (replace(bare, on_shaft=True), "bonded on the motor's shaft"),
         (bare, "a pilot hole"),
         (FLAT, "a pilot hole"),
     ):
-        assert said in " ".join(text.text for text in texts(wheel_sheet(drawing)))
-    held = texts(wheel_sheet(replace(FLAT, on_shaft=True)))
-    assert not [text for text in held if "pilot" in text.text or "bolt circle" in text.text]
+        assert note in " ".join(text.text for text in texts(wheel_sheet(drawing)))
+    on_shaft = texts(wheel_sheet(replace(FLAT, on_shaft=True)))
+    assert not [text for text in on_shaft if "pilot" in text.text or "bolt circle" in text.text]
 
 
 NUMBER = rb"-?\d*\.?\d+"
 
 
 def test_lines_and_circles_of_the_pdf_are_those_of_the_sheet():
-    """A PDF counts from the bottom; a circle begins at its right."""
+    """Coordinates of a PDF start at the bottom; a circle starts at its right."""
     pdf = draw_wheel(FLAT)["pdf"]
-    lines = [(*each.start, *each.end) for each in wheel_sheet(FLAT) if isinstance(each, Line)]
+    lines = [(*item.start, *item.end) for item in wheel_sheet(FLAT) if isinstance(item, Line)]
     drawn = re.findall(rb"n (%b) (%b) m (%b) (%b) l S" % ((NUMBER,) * 4), pdf)
     expected = np.array(lines) * [1, -1, 1, -1] + [0, 210, 0, 210]
     np.testing.assert_allclose(np.array(drawn, float), expected, atol=1e-4)
     content = pdf_of_pages([[Circle((100.0, 60.0), 40.0, OUTLINE)]], "")
-    begun = re.search(rb"n\s(%b) (%b) m\s" % (NUMBER, NUMBER), content).groups()
-    assert [float(each) for each in begun] == pytest.approx([140.0, 150.0])
+    start = re.search(rb"n\s(%b) (%b) m\s" % (NUMBER, NUMBER), content).groups()
+    assert [float(number) for number in start] == pytest.approx([140.0, 150.0])
 
 
 DEVICE = paper_device()
@@ -306,15 +309,15 @@ DEVICE = paper_device()
 
 def test_mass_and_inertia_are_the_designed_ones():
     drawing = wheel_drawing(DEVICE, "solo12")
-    found, wheel = drawing.mass_properties, DEVICE.flywheel
-    assert found.mass == pytest.approx(wheel.mass, rel=1e-9)
+    drawn, wheel = drawing.mass_properties, DEVICE.flywheel
+    assert drawn.mass == pytest.approx(wheel.mass, rel=1e-9)
     rotor = DEVICE.motor.rotor_inertia
-    assert found.inertia[2, 2] == pytest.approx(wheel.spin_inertia - rotor, rel=1e-9)
-    assert found.inertia[0, 0] == pytest.approx(wheel.transverse_inertia, rel=1e-9)
+    assert drawn.inertia[2, 2] == pytest.approx(wheel.spin_inertia - rotor, rel=1e-9)
+    assert drawn.inertia[0, 0] == pytest.approx(wheel.transverse_inertia, rel=1e-9)
 
 
 def test_the_hash_follows_everything_that_is_drawn():
-    """Plates of 3 and 5 mm and none are three designs; what no drawing shows makes no other."""
+    """It changes with all drawn parts and sizes, but not with the supply."""
     built = DEVICES["on a plate"]
     pedestal = Pedestal(0.027, 0.02, 0.05, 0.5, 0.04)
     others = [
@@ -326,15 +329,15 @@ def test_the_hash_follows_everything_that_is_drawn():
         replace(built, foot_plate=0.006),
         built.at_incidence(0.3),
     ]
-    assert len({device_hash(each) for each in (built, *others)}) == 1 + len(others)
+    assert len({device_hash(device) for device in (built, *others)}) == 1 + len(others)
     assert device_hash(built) == device_hash(replace(built, supply=Supply(24.0)))
     backwards = make_dataclass("Backwards", reversed(vars(built.motor)))(**vars(built.motor))
     assert device_hash(built) == device_hash(replace(built, motor=backwards))
     assert len(device_hash(built)) == 12
 
 
-@pytest.mark.parametrize(("fastest", "said"), [(math.inf, None), (800.0, 800.0)])
-def test_a_speed_without_limit_is_no_speed(fastest, said):
-    motor = replace(DEVICE.motor, no_load_speed=fastest, speed_max=None)
+@pytest.mark.parametrize(("no_load_speed", "expected"), [(math.inf, None), (800.0, 800.0)])
+def test_an_infinite_speed_is_not_drawn(no_load_speed, expected):
+    motor = replace(DEVICE.motor, no_load_speed=no_load_speed, speed_max=None)
     device = replace(DEVICE, motor=motor)
-    assert wheel_drawing(device, "x").speed == said
+    assert wheel_drawing(device, "x").speed == expected
