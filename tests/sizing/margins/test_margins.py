@@ -1,4 +1,4 @@
-"""Every margin once by hand, and the worst over maneuvers."""
+"""Each margin computed by hand, and the worst over maneuvers."""
 
 from dataclasses import replace
 
@@ -14,7 +14,7 @@ AXES = module_axes(np.radians(30.0))
 
 
 def turn(torque=0.4, speed=300.0, rate=4.0):
-    """Half a second of spinning up and as much of braking; both wheels alike."""
+    """Both wheels spin up for 0.5 s and brake for 0.5 s."""
     time = np.array([0.0, 0.5, 0.5, 1.0])
     shape = np.array([0.0, 1.0, 1.0, 0.0])
     drive = torque * np.array([1.0, 1.0, -1.0, -1.0])
@@ -54,14 +54,14 @@ def about(value, rel=1e-4):
         (driven_wheel(), "hoop stress", about(4.0262e6), 215e6),
         # 0.4 N m against 0.128 N m.
         (driven_wheel(), "rms current", about(0.4 / 0.0369, 1e-12), about(0.128 / 0.0369, 1e-12)),
-        # A gear turns the motor faster.
+        # The motor behind a gear turns faster.
         (driven_wheel(gear=BELT), "motor speed", 600.0, 900.0),
         (driven_wheel(gear=BELT), "wheel speed", 300.0, 450.0),
-        # A stated wheel speed limits like a mechanical one, and stress goes with its square.
+        # A specified wheel speed acts like a mechanical limit; stress grows with its square.
         (SLOW_LINE, "wheel speed", 300.0, 400.0),
         (SLOW_LINE, "hoop stress", about(4.0262e6 * (400.0 / 650.4) ** 2), 215e6),
         (driven_wheel(replace(EC45, speed_max=325.2)), "hoop stress", about(4.0262e6 / 4.0), 215e6),
-        # Without a limit that is stated: the speed unloaded, and no rating.
+        # Without a rated limit: the no-load speed, and no rating of the current.
         (driven_wheel(replace(EC45, speed_max=None)), "motor speed", 300.0, 639.8),
         (driven_wheel(replace(EC45, continuous_torque=None)), "rms current", about(10.8401), None),
         (UNLIMITED, "motor torque", 0.4, None),
@@ -83,22 +83,22 @@ def test_demand_and_capacity_by_hand(wheel, name, demand, capacity):
         ({"continuous_torque": None}, "rms current", "no continuous rating"),
     ],
 )
-def test_what_no_source_states_is_noted(change, name, note):
+def test_missing_ratings_are_noted(change, name, note):
     assert note in by_name(turn(), driven_wheel(replace(EC45, **change)))[name].note
 
 
-def test_of_motor_and_gear_the_one_that_limits_the_speed_is_noted():
-    """A motor that no limit is stated for, 640 rad/s, behind a gear for less or for more."""
-    unstated = replace(EC45, speed_max=None)
-    slow = by_name(turn(), driven_wheel(unstated, gear=replace(BELT, motor_speed_max=600.0)))
-    fast = by_name(turn(), driven_wheel(unstated, gear=BELT))
+def test_the_speed_limit_is_attributed_to_motor_or_gear():
+    """A motor without a rated limit, 640 rad/s, behind a gear with a lower or higher limit."""
+    unrated = replace(EC45, speed_max=None)
+    slow = by_name(turn(), driven_wheel(unrated, gear=replace(BELT, motor_speed_max=600.0)))
+    fast = by_name(turn(), driven_wheel(unrated, gear=BELT))
     assert (slow["motor speed"].capacity, fast["motor speed"].capacity) == (600.0, 639.8)
     assert "gear" in slow["motor speed"].note
     assert "no limit stated" in fast["motor speed"].note
 
 
-def test_braking_takes_less_of_the_line_than_driving():
-    """It ends at rest with tau alone; at full speed it is |300 / 650.4 - 0.4 / 1.4566|."""
+def test_braking_uses_less_of_the_torque_speed_line_than_driving():
+    """At rest tau / tau_s, and at full speed |300 / 650.4 - 0.4 / 1.4566|."""
     for part, share in ((slice(0, 2), 0.73586), (slice(2, 4), 0.4 / 1.4566)):
         motion = SampledMotion(**{name: values[part] for name, values in vars(turn()).items()})
         found = by_name(motion, driven_wheel())["voltage line"]
@@ -118,7 +118,7 @@ def test_heat_against_the_continuous_rating():
     assert cool.note == ""
 
 
-def test_nothing_is_asked_of_a_device_at_rest():
+def test_a_device_at_rest_has_no_demand():
     for margin in by_name(turn(torque=0.0, speed=0.0, rate=0.0), driven_wheel()).values():
         assert margin.demand == 0.0 or margin.name == "hoop stress"
 
@@ -134,8 +134,8 @@ def test_the_worst_of_each_kind_names_its_maneuver():
     assert found["hoop stress"].scenario == ""
 
 
-def test_the_worst_goes_by_the_share_of_the_capacity():
-    """Maneuvers flown at another incidence may be with another limit: the share tells."""
+def test_the_worst_is_the_largest_share_of_its_capacity():
+    """Maneuvers at another incidence may have another limit."""
     low, high = Margin("speed", 10.0, 11.0, "rad/s"), Margin("speed", 50.0, 100.0, "rad/s")
     assert worst([("a", [low]), ("b", [high])])[0].scenario == "a"
     assert worst([("a", [high]), ("b", [low])])[0].scenario == "b"

@@ -1,4 +1,4 @@
-"""Motions are integrated exactly between their samples."""
+"""Motions are integrated exactly between samples."""
 
 import numpy as np
 import pytest
@@ -20,14 +20,14 @@ def trajectory(n=4):
     )
 
 
-def test_a_reference_is_taken_as_it_is():
+def test_a_reference_is_used_unchanged():
     reference = trajectory()
     motion = SampledMotion.along(reference)
     assert np.array_equal(motion.wheel_torque, reference.wheel_torque)
     assert np.ptp(motion.time) == 1.0
 
 
-def test_a_flown_torque_is_held_and_its_last_value_is_not_used():
+def test_a_flown_torque_is_piecewise_constant_and_its_last_value_unused():
     time = np.array([0.0, 0.1, 0.3])
     speed = np.array([[0.0, 0.0], [1.0, 2.0], [5.0, 6.0]])
     torque = np.array([[1.0, 2.0], [3.0, 4.0], [np.nan, np.nan]])
@@ -41,7 +41,7 @@ def test_a_flown_torque_is_held_and_its_last_value_is_not_used():
     )
 
 
-def test_work_of_a_held_torque_is_torque_times_angle():
+def test_work_of_a_constant_torque_is_torque_times_angle():
     motion = SampledMotion.flown(
         np.array([0.0, 0.1, 0.3]),
         np.array([[0.0, 0.0], [1.0, 0.0], [5.0, 0.0]]),
@@ -53,7 +53,7 @@ def test_work_of_a_held_torque_is_torque_times_angle():
 
 
 def test_products_of_linear_signals_are_exact():
-    """Two straight lines over one interval: the integral of (1 - t)(2 + 4 t) is 7/3 - 2/3."""
+    """Two linear signals over one interval: the integral of (1 - t)(2 + 4 t) is 7/3 - 2/3."""
     ends = np.array([[1.0, 2.0], [0.0, 6.0]])
     zero = np.zeros((2, 3))
     fine = SampledMotion(np.array([0.0, 1.0]), ends, ends, zero, zero).between()

@@ -1,4 +1,4 @@
-"""The incidence by a criterion: who leads where none wins at its own, and where nobody can."""
+"""Selection with the incidence by a criterion, where no device wins or is feasible at its own."""
 
 from dataclasses import replace
 
@@ -12,31 +12,31 @@ from ocs_design.sizing.selection.problem import Reason
 from ocs_design.sizing.selection.select import select, select_by
 
 
-def test_what_no_motor_can_do_there_is_said_of_all_of_them():
-    """At the incidence that its lightest device leads to, not even that one can do it."""
+def test_a_refusal_names_all_motors_where_none_is_feasible():
+    """At the criterion's incidence not even the lightest device is feasible."""
     problem = replace(random_case(15).problem, incidence=None)
     with pytest.raises(Infeasible, match=f"None of {len(problem.motors)} motors"):
         select_by(problem, Criterion.WEIGHTED)
 
 
 @pytest.mark.slow
-def test_where_none_wins_at_its_own_incidence_the_lightest_at_its_own_leads(monkeypatch):
-    """Two devices, each of which wins at the other's incidence only: heavy at its own."""
+def test_where_no_device_wins_at_its_own_incidence_the_lightest_there_leads(monkeypatch):
+    """Two devices, each the lightest at the other's incidence only."""
     problem = replace(random_case(4).problem, incidence=None)
     base = select(replace(problem, incidence=0.5)).best
     angles, masses = {"a": 0.4, "b": 0.6}, {"a": 0.10, "b": 0.12}
 
     def device(name, incidence):
-        """Heavier than the base, by 0.05 kg less away from its own incidence."""
-        off = abs(incidence - angles[name]) > 1e-6
-        more = (masses[name] - 0.05 * off) / 2.0
-        motor = replace(base.motor, name=name, mass=base.motor.mass + more)
+        """A device heavier than the base, by 0.05 kg less away from its own incidence."""
+        is_away = abs(incidence - angles[name]) > 1e-6
+        excess = (masses[name] - 0.05 * is_away) / 2.0
+        motor = replace(base.motor, name=name, mass=base.motor.mass + excess)
         return replace(base, motor=motor, incidence=incidence)
 
-    def choose(asked):
-        """All that are asked for, lightest first."""
-        names = {motor.name for motor in asked.motors} & set(angles) or set(angles)
-        found = sorted((device(name, asked.incidence) for name in names), key=lambda d: d.mass)
+    def choose(problem):
+        """All devices of a problem, lightest first."""
+        names = {motor.name for motor in problem.motors} & set(angles) or set(angles)
+        found = sorted((device(name, problem.incidence) for name in names), key=lambda d: d.mass)
         return replace(lightest, ranking=tuple(found), reasons=tuple)
 
     def settled(problem, winner, criterion):

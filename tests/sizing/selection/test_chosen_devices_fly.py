@@ -1,4 +1,4 @@
-"""Every chosen device does in MuJoCo, with its motor's limits, what it was chosen for."""
+"""Selected devices pass their maneuvers in MuJoCo within their motor's limits."""
 
 import numpy as np
 import pytest
@@ -10,21 +10,21 @@ from ocs_design.sizing.assembly import assemble_selected
 from ocs_design.sizing.selection.select import select
 from ocs_design.sizing.trajectory.plans import plan
 
-POSSIBLE = (1, 2, 3, 4, 5, 6, 7, 8, 10, 16)
+FEASIBLE_SEEDS = (1, 2, 3, 4, 5, 6, 7, 8, 10, 16)
 
 
-@pytest.mark.parametrize("seed", slow_subset(10, POSSIBLE))
-def test_a_chosen_device_passes_with_its_motors_limits(seed):
-    drawn = random_case(seed)
-    problem, requirement = drawn.problem, drawn.problem.requirement
+@pytest.mark.parametrize("seed", slow_subset(10, FEASIBLE_SEEDS))
+def test_a_selected_device_passes_within_its_motors_limits(seed):
+    case = random_case(seed)
+    problem, requirement = case.problem, case.problem.requirement
     chosen = select(problem).best
     device = assemble_selected(chosen)
     plans = plan(
-        drawn.robot.mass_properties, device, requirement.maneuvers, requirement.standing_height
+        case.robot.mass_properties, device, requirement.maneuvers, requirement.standing_height
     )
     runs = run_scenarios(
         Flights(
-            drawn.robot,
+            case.robot,
             device,
             requirement.maneuvers,
             references={

@@ -1,4 +1,4 @@
-"""Steels of one density make devices of one mass: no rounding decides which of them is named."""
+"""Steels of equal density give devices of equal mass: rounding must not decide between them."""
 
 from dataclasses import replace
 from types import SimpleNamespace
@@ -17,13 +17,13 @@ from ocs_design.sizing.selection.select import select, select_by
 STRONG = Material("strong", 7833.0, 621e6, 827e6, 0.32, "for tests")
 WEAK = Material("weak", 7833.0, 552e6, 621e6, 0.32, "for tests")
 ROUNDING = 1e-9
-"""Relative, of a mass: more than processors differ by."""
+"""Relative change of a mass, larger than differences between processors."""
 SEED, MOTORS = 1, 1
 
 
 @pytest.fixture(params=(-ROUNDING, ROUNDING), ids=("lighter", "heavier"))
 def steels(request):
-    """The weaker steel first, and lighter than the other one or heavier."""
+    """Materials with the weaker steel first, slightly lighter or heavier than the stronger."""
     return replace(WEAK, density=WEAK.density * (1.0 + request.param)), ALUMINIUM, STRONG
 
 
@@ -45,37 +45,37 @@ def test_the_stronger_steel_leads_the_ranking(steels, incidence):
 
 
 @pytest.mark.slow
-def test_it_leads_at_the_incidence_of_a_criterion(steels):
+def test_the_stronger_steel_leads_at_the_incidence_of_a_criterion(steels):
     problem = problem_of(steels, incidence=None)
     assert select_by(problem, Criterion.EQUAL_RATE).best.material.name == "strong"
 
 
-def test_it_is_found_where_only_the_lightest_is_looked_for(steels):
+def test_the_stronger_steel_is_found_by_an_unranked_search(steels):
     found = search(problem_of(steels, incidence=0.6), ranked=False)
     assert steels[found.ranking[0].parts[2]].name == "strong"
 
 
 @pytest.mark.slow
-def test_at_its_own_incidence_the_winner_is_as_light_as_its_twins():
-    """Solo12's device can only just carry itself: a step too far takes a smaller radius."""
-    solo = design_device(solo12_task(motor__name="Antigravity MN5006 KV450"), ranked=False)
+def test_twins_are_equally_light_at_the_incidence_of_the_criterion():
+    """Solo12's device is barely feasible: a step too far would end at a smaller radius."""
+    design = design_device(solo12_task(motor__name="Antigravity MN5006 KV450"), ranked=False)
     strong, weak = material("steel-4140-normalized"), material("steel-1045-cold-worked")
     for heavier in (-ROUNDING, ROUNDING):
         steels = replace(weak, density=weak.density * (1.0 + heavier)), strong
-        problem = replace(solo.choice.problem, materials=steels, incidence=None)
+        problem = replace(design.choice.problem, materials=steels, incidence=None)
         best, second, *_ = select_by(problem, Criterion.EQUAL_RATE).ranking
         assert (best.material.name, second.material.name) == (strong.name, weak.name)
         assert second.mass == pytest.approx(best.mass, rel=10.0 * ROUNDING)
 
 
-def test_a_device_that_is_lighter_leads_whatever_its_strength(steels):
+def test_a_lighter_device_leads_whatever_its_strength(steels):
     problem = problem_of(steels, incidence=0.6)
     twin = select(problem).best
     lighter = replace(twin, material=WEAK, height=twin.height * (1.0 - 1e-3))
     assert devices_by_mass([twin, lighter]) == [lighter, twin]
 
 
-def test_equal_masses_are_those_next_to_the_lightest_of_them():
+def test_equal_masses_are_within_a_tolerance_of_the_lightest():
     """No chain of small differences makes a heavy entry equal to a light one."""
     step = 0.6 * SAME_MASS
     masses = [1.0, 1.0 + step, 1.0 + 2.0 * step]

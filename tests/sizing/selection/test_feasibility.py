@@ -1,4 +1,4 @@
-"""Whether there is a device: against the selection, which looks at every candidate by its mass."""
+"""Whether a problem is feasible: against the exhaustive selection."""
 
 from dataclasses import replace
 
@@ -21,8 +21,8 @@ SEEDS = (9, *(pytest.param(seed, marks=pytest.mark.exhaustive) for seed in (0, *
     "share", [0.6, *(pytest.param(s, marks=pytest.mark.exhaustive) for s in (0.4, 0.75, 0.85))]
 )
 @pytest.mark.parametrize("seed", SEEDS)
-def test_as_the_selection_finds_it(seed, share):
-    """From a room in which no wheel turns the robot to nearly that in which some do."""
+def test_feasibility_agrees_with_the_selection(seed, share):
+    """From envelopes without feasible wheels to some with them."""
     narrow = with_radius(random_problem(seed), share)
     assert Field.of(narrow).possible == has_device(narrow)
 
@@ -37,7 +37,7 @@ def test_bounds_rule_out_nothing_that_is_possible(seed):
 
 
 @pytest.mark.parametrize("limit", [RIM_LIMITS[0], BUS_VOLTAGE, TIME], ids=lambda limit: limit.name)
-def test_what_is_kept_from_a_like_problem_is_what_is_found_anew(limit):
+def test_a_changed_field_equals_a_new_one(limit):
     problem = random_problem(9, motors=1)
     now = limits_of(problem)[limit]
     changed = with_limit(problem, limit, limit.loosened(now, 1.3))
@@ -48,8 +48,7 @@ def test_what_is_kept_from_a_like_problem_is_what_is_found_anew(limit):
     assert kept.drives.full_line.stall_torque == pytest.approx(stall, rel=1e-14)
 
 
-def test_after_so_many_of_the_most_promising_the_answer_is_no(monkeypatch):
-    """However many are left."""
+def test_the_search_stops_after_a_number_of_candidates(monkeypatch):
     tried = []
 
     def none_solved(candidates, guess):
@@ -60,23 +59,23 @@ def test_after_so_many_of_the_most_promising_the_answer_is_no(monkeypatch):
     assert field.possible
     monkeypatch.setattr(advice, "solve_stepwise", none_solved)
     assert not field.possible
-    everything = sum(tried)
+    total = sum(tried)
     tried.clear()
     monkeypatch.setattr(advice, "_MOST_SOLVED", 3)
     assert not field.possible
-    assert 3 <= sum(tried) < everything
+    assert 3 <= sum(tried) < total
 
 
 @pytest.mark.exhaustive
 @pytest.mark.parametrize("seed", SEEDS)
-def test_each_change_mends_and_hardly_less_does(seed):
-    rooms = (with_radius(random_problem(seed), share) for share in (0.3, 0.25, 0.2, 0.15))
-    small = next(room for room in rooms if not has_device(room))
+def test_each_change_is_sufficient_and_nearly_the_smallest(seed):
+    problems = (with_radius(random_problem(seed), share) for share in (0.3, 0.25, 0.2, 0.15))
+    small = next(problem for problem in problems if not has_device(problem))
     changes = single_changes(Field.of(small))
     for limit, value in changes.items():
-        back = (1.0 + 1.01 * ADVICE_PRECISION) ** (-1 if limit.loosens_upwards else 1)
+        factor = (1.0 + 1.01 * ADVICE_PRECISION) ** (-1 if limit.loosens_upwards else 1)
         assert has_device(with_limit(small, limit, value))
-        assert not has_device(with_limit(small, limit, value * back))
+        assert not has_device(with_limit(small, limit, value * factor))
     assert seed != 9 or "r_max" in {limit.name for limit in changes}
 
 
@@ -97,8 +96,8 @@ def test_no_device_is_lighter_than_its_own_bound(seed):
 @pytest.mark.parametrize(
     "seed", [0, 21, *(pytest.param(s, marks=pytest.mark.exhaustive) for s in (3, 9, 12, 17, 20))]
 )
-def test_the_lightest_alone_is_the_first_of_the_ranking(seed):
-    """To 0.1 % at a stated incidence; what is heavier than asked for is not looked for."""
+def test_an_unranked_search_finds_the_first_of_the_ranking(seed):
+    """To 0.1 % at a specified incidence; heavier devices than the mass limit are not searched."""
     problem = replace(random_problem(seed), incidence=0.6)
     ranked, found = search(problem), search(problem, ranked=False)
     assert bool(found.ranking) == bool(ranked.ranking)

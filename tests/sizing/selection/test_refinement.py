@@ -1,4 +1,4 @@
-"""One candidate from anywhere near: the same device to all digits, or none."""
+"""Refinement of one candidate: from any nearby start the same device, or none."""
 
 from dataclasses import replace
 from functools import cache
@@ -16,32 +16,32 @@ from ocs_design.sizing.selection.select import select
 
 
 @cache
-def drawn(seed):
-    """A problem that is drawn, and its lightest device."""
+def solved_case(seed):
+    """A random problem and its lightest device."""
     problem = random_case(seed).problem
     return problem, select(problem).best
 
 
 def candidates_of(problem, chosen):
-    """The chosen drive and material alone."""
+    """The selected drive and material alone."""
     pair = np.array([[problem.motors.index(chosen.motor), problem.gears.index(chosen.gear)]])
     material = np.array([problem.materials.index(chosen.material)])
     return Candidates(problem, drives_of(problem, pair), material)
 
 
-def beside(chosen, factors, turn):
-    """A start with other radii and height, turned by an angle [rad]; its masses do not matter."""
+def start_near(chosen, factors, turn):
+    """A start with scaled radii and height, and an incidence changed by `turn` [rad]."""
     bore, radius, height = factors
     sizes = (chosen.inner_radius * bore, chosen.outer_radius * radius, chosen.height * height)
-    nothing = np.zeros(1)
+    zero = np.zeros(1)
     return FixedPoint(
-        spin_inertia=nothing,
-        radius=nothing,
+        spin_inertia=zero,
+        radius=zero,
         angle=np.array([chosen.incidence + turn]),
         shapes=ModuleShape(*np.array([*sizes, 1.0, 0.0, 1.0])[:, None]),
         feasible=np.zeros(1, dtype=bool),
-        margin=nothing,
-        residual=nothing,
+        margin=zero,
+        residual=zero,
         iterations=np.zeros(1, dtype=int),
     )
 
@@ -54,10 +54,10 @@ def beside(chosen, factors, turn):
     [((1.0, 1.0, 1.0), 0.0), ((0.97, 0.98, 0.95), 0.01), ((1.0, 1.02, 1.1), -0.02)],
 )
 def test_the_start_does_not_matter(seed, factors, turn):
-    problem, chosen = drawn(seed)
+    problem, chosen = solved_case(seed)
     turn = turn if problem.incidence is None else 0.0
     candidates = candidates_of(problem, chosen)
-    found = refine(candidates, beside(chosen, factors, turn))
+    found = refine(candidates, start_near(chosen, factors, turn))
     assert found.feasible.all()
     mass = 2.0 * (found.shapes.mass[0] + candidates.drives.mass[0])
     assert mass == pytest.approx(chosen.mass, rel=1e-9)
@@ -68,51 +68,53 @@ def test_the_start_does_not_matter(seed, factors, turn):
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", [3, 4])
 def test_the_number_of_threads_does_not_matter(seed):
-    """To the last digit, though libraries round otherwise on another number of them."""
-    problem, chosen = drawn(seed)
+    """To the last digit, though rounding in libraries depends on the number of threads."""
+    problem, chosen = solved_case(seed)
     candidates = candidates_of(problem, chosen)
     turn = 0.01 if problem.incidence is None else 0.0
     found = []
     for threads in (1, 2, 4):
         with threadpool_limits(limits=threads, user_api="blas"):
-            found.append(refine(candidates, beside(chosen, (0.97, 0.98, 0.95), turn)).shapes)
+            found.append(refine(candidates, start_near(chosen, (0.97, 0.98, 0.95), turn)).shapes)
     for name in ("inner_radius", "outer_radius", "height"):
         assert len({getattr(shapes, name).item() for shapes in found}) == 1, name
 
 
-def test_at_a_jump_it_ends_soon_with_the_best_point_that_was_seen(monkeypatch):
-    """A limit that no step mends, and whose slope says that one would."""
-    problem, chosen = drawn(2)
-    programme, asked = Programme(candidates_of(problem, chosen)), []
-    whole = Programme.evaluation
+def test_at_a_discontinuity_it_stops_early_with_the_best_point(monkeypatch):
+    """A limit that no step satisfies, with a slope that says one would."""
+    problem, chosen = solved_case(2)
+    programme, points = Programme(candidates_of(problem, chosen)), []
+    evaluation = Programme.evaluation
 
-    def jumping(self, point, low, high):
-        asked.append(point)
-        found = whole(self, point, low, high)
-        missed = 1e-4 + np.abs(point - start).max()
-        slopes = np.vstack([found.slopes, np.ones(point.size)])
-        return found._replace(limits=np.append(found.limits, -missed), slopes=slopes)
+    def discontinuous(self, point, low, high):
+        points.append(point)
+        values = evaluation(self, point, low, high)
+        violation = 1e-4 + np.abs(point - start).max()
+        slopes = np.vstack([values.slopes, np.ones(point.size)])
+        return values._replace(limits=np.append(values.limits, -violation), slopes=slopes)
 
     start = coordinates(chosen.outer_radius, chosen.height, chosen.inner_radius, chosen.incidence)
-    monkeypatch.setattr(Programme, "evaluation", jumping)
+    monkeypatch.setattr(Programme, "evaluation", discontinuous)
     found = lightest(programme, start)
-    assert len(asked) < 20
+    assert len(points) < 20
     np.testing.assert_array_equal(found.point, start)
     assert found.violation == pytest.approx(1e-4)
 
 
-def test_what_cannot_be_is_not_possible():
-    problem, chosen = drawn(2)
+def test_an_infeasible_candidate_stays_infeasible():
+    problem, chosen = solved_case(2)
     small = replace(problem.envelope, outer_radius_max=0.3 * problem.envelope.outer_radius_max)
-    less = replace(problem, envelope=small)
-    assert not refine(candidates_of(less, chosen), beside(chosen, (1.0, 1.0, 1.0), 0.0)).feasible
+    narrow = replace(problem, envelope=small)
+    assert not refine(
+        candidates_of(narrow, chosen), start_near(chosen, (1.0, 1.0, 1.0), 0.0)
+    ).feasible
 
 
-def test_a_stated_incidence_and_spin_inertia_are_kept():
-    problem, chosen = drawn(2)
+def test_specified_incidence_and_spin_inertia_are_kept():
+    problem, chosen = solved_case(2)
     more = replace(problem.requirement, spin_inertia=1.1 * chosen.spin_inertia)
     specified = replace(problem, incidence=chosen.incidence, requirement=more)
-    found = refine(candidates_of(specified, chosen), beside(chosen, (0.99, 1.0, 1.0), 0.0))
+    found = refine(candidates_of(specified, chosen), start_near(chosen, (0.99, 1.0, 1.0), 0.0))
     assert found.feasible.all()
     assert found.angle[0] == chosen.incidence
     assert found.spin_inertia[0] == pytest.approx(1.1 * chosen.spin_inertia, rel=1e-9)

@@ -1,4 +1,4 @@
-"""What must hold of a selection whatever its robot: laws on problems drawn at random."""
+"""Laws of the selection, on random problems."""
 
 from dataclasses import replace
 from functools import cache
@@ -15,27 +15,28 @@ from ocs_design.requirement.pushes import Disturbance
 from ocs_design.requirement.turns import Drop, Flip
 from ocs_design.sizing.selection.select import select
 
-POSSIBLE = (2, 6)
-"""Of the drawn problems, two with a device and all kinds of maneuvers between them."""
+FEASIBLE_SEEDS = (2, 6)
+"""Two feasible cases that together have all kinds of maneuvers."""
 ON_THE_EDGE = 15
-"""One whose lightest drive can carry few wheels, and those at few incidences."""
+"""A case whose lightest drive is feasible with few wheels, and at few incidences."""
 EXACT = 1e-9
-"""To which a mass is settled, relative."""
+"""Relative tolerance of a mass."""
 
 
 @pytest.fixture(
-    scope="module", params=[POSSIBLE[0], pytest.param(POSSIBLE[1], marks=pytest.mark.exhaustive)]
+    scope="module",
+    params=[FEASIBLE_SEEDS[0], pytest.param(FEASIBLE_SEEDS[1], marks=pytest.mark.exhaustive)],
 )
 def problem(request):
     return random_case(request.param).problem
 
 
 chosen = cache(select)
-"""The selection of a problem, made once."""
+"""The selection of a problem, computed once."""
 
 
 def mass(problem):
-    """Of the lightest device [kg]; inf where there is none."""
+    """Mass of the lightest device [kg]; inf if infeasible."""
     try:
         return chosen(problem).best.mass
     except Infeasible:
@@ -43,23 +44,23 @@ def mass(problem):
 
 
 def no_heavier(problem, *others):
-    """Each of these is no heavier than the one before."""
+    """Whether each problem's device is no heavier than that of the one before."""
     masses = [mass(each) for each in (problem, *others)]
     assert np.isfinite(masses[-1])
     pairs = zip(masses[1:], masses[:-1], strict=True)
     return all(after <= before * (1.0 + EXACT) for after, before in pairs)
 
 
-def in_more_time(maneuver, standing, times):
-    """The same turn, or the same push, with so many times as long for it."""
+def slower(maneuver, standing, factor):
+    """The same turn, or the same push, in a time longer by a factor."""
     match maneuver:
         case Drop():
-            return replace(maneuver, height=standing + (maneuver.height - standing) * times**2)
+            return replace(maneuver, height=standing + (maneuver.height - standing) * factor**2)
         case Flip():
-            return replace(maneuver, duration=maneuver.duration * times)
+            return replace(maneuver, duration=maneuver.duration * factor)
         case Disturbance():
             forward, up = maneuver.takeoff_velocity
-            return replace(maneuver, takeoff_velocity=(forward, up * times))
+            return replace(maneuver, takeoff_velocity=(forward, up * factor))
 
 
 def with_maneuvers(problem, maneuvers):
@@ -68,17 +69,16 @@ def with_maneuvers(problem, maneuvers):
 
 def test_more_time_is_no_heavier(problem):
     standing = problem.requirement.standing_height
-    slower = [
+    relaxed = [
         with_maneuvers(
-            problem,
-            [in_more_time(each, standing, times) for each in problem.requirement.maneuvers],
+            problem, [slower(each, standing, factor) for each in problem.requirement.maneuvers]
         )
-        for times in (1.05, 1.3)
+        for factor in (1.05, 1.3)
     ]
-    assert no_heavier(problem, *slower)
+    assert no_heavier(problem, *relaxed)
 
 
-def test_less_to_do_is_no_heavier(problem):
+def test_fewer_requirements_are_no_heavier(problem):
     drop = with_maneuvers(problem, problem.requirement.maneuvers[:1])
     without_rate = replace(drop, requirement=replace(drop.requirement, rate_change=None))
     assert no_heavier(problem, drop, without_rate)
@@ -97,30 +97,30 @@ def test_less_to_do_is_no_heavier(problem):
     ],
 )
 def test_looser_limits_are_no_heavier(problem, name, factors):
-    room = problem.envelope
-    rooms = [replace(room, **{name: getattr(room, name) * times}) for times in factors]
-    assert no_heavier(problem, *(replace(problem, envelope=each) for each in rooms))
+    envelope = problem.envelope
+    looser = [replace(envelope, **{name: getattr(envelope, name) * by}) for by in factors]
+    assert no_heavier(problem, *(replace(problem, envelope=each) for each in looser))
 
 
 @pytest.mark.parametrize("name", fast_subset(3, ["motors", "gears", "materials"]))
-def test_more_to_choose_from_is_no_heavier(problem, name):
+def test_more_choices_are_no_heavier(problem, name):
     choices = getattr(problem, name)
     fewer = [replace(problem, **{name: choices[:count]}) for count in range(1, len(choices) + 1)]
     assert no_heavier(*fewer)
 
 
 @pytest.mark.slow
-def test_the_lightest_is_that_of_each_combination_by_itself(problem):
-    check_each_by_itself(problem)
+def test_the_ranking_is_that_of_all_combinations(problem):
+    check_ranking(problem)
 
 
 @pytest.mark.exhaustive
-def test_so_it_is_on_the_edge_of_the_possible():
-    check_each_by_itself(random_case(ON_THE_EDGE).problem)
+def test_the_ranking_of_a_barely_feasible_problem():
+    check_ranking(random_case(ON_THE_EDGE).problem)
 
 
-def check_each_by_itself(problem):
-    """Whatever was left out, no motor, gear and material by themselves are lighter."""
+def check_ranking(problem):
+    """No combination of motor, gear and material that was pruned is lighter by itself."""
     alone = [
         mass(replace(problem, motors=[motor], gears=[gear], materials=[material]))
         for motor in problem.motors
@@ -131,31 +131,31 @@ def check_each_by_itself(problem):
     per_motor = np.array(alone).reshape(len(problem.motors), -1)
     leaders = sorted(each for each in per_motor.min(axis=1) if each < inf)[:5]
     ten = sorted(each for each in alone if each < inf)[:10]
-    possible = sorted([*ten, *(each for each in leaders if each not in ten)])
-    assert len(ranked) == len(possible)
-    assert ranked[0] == pytest.approx(possible[0], rel=EXACT)
-    # Behind the first, up to some percent more than would have to be.
-    assert np.all(np.array(ranked) >= np.array(possible) * (1.0 - EXACT))
+    expected = sorted([*ten, *(each for each in leaders if each not in ten)])
+    assert len(ranked) == len(expected)
+    assert ranked[0] == pytest.approx(expected[0], rel=EXACT)
+    # Below the first, masses may be a few percent above the least.
+    assert np.all(np.array(ranked) >= np.array(expected) * (1.0 - EXACT))
 
 
 def test_more_voltage_is_no_heavier_where_no_speed_is_limited(problem):
-    """No limit of speed binds at 60 V more, and no stress: rims may then turn ever faster."""
+    """Neither speed nor stress is limited, since more voltage makes rims turn faster."""
     motors = [replace(motor, speed_max=1e6) for motor in problem.motors]
     gears = [replace(gear, motor_speed_max=inf, wheel_speed_max=inf) for gear in problem.gears]
-    free = replace(
+    unlimited = replace(
         problem,
         motors=motors,
         gears=gears,
         wheel_speed_max=None,
         materials=[replace(kind, yield_strength=None) for kind in problem.materials],
     )
-    volts = free.supply.voltage
-    higher = [replace(free, supply=Supply(volts * times)) for times in (1.2, 2.0)]
-    assert no_heavier(free, *higher)
+    volts = unlimited.supply.voltage
+    higher = [replace(unlimited, supply=Supply(volts * by)) for by in (1.2, 2.0)]
+    assert no_heavier(unlimited, *higher)
 
 
 @pytest.mark.exhaustive
-def test_a_free_incidence_is_no_heavier_than_any(problem):
+def test_a_free_incidence_is_no_heavier_than_a_fixed_one(problem):
     free = mass(replace(problem, incidence=None))
     fixed = [
         mass(replace(problem, incidence=float(angle))) for angle in np.linspace(0.0, pi / 2.0, 10)
@@ -163,7 +163,7 @@ def test_a_free_incidence_is_no_heavier_than_any(problem):
     assert free <= min(fixed) * (1.0 + EXACT)
 
 
-def test_the_ranking_is_sorted_settled_and_adds_up(problem):
+def test_the_ranking_is_sorted_unique_and_converged(problem):
     ranking = chosen(problem).ranking
     masses = [device.mass for device in ranking]
     assert masses == sorted(masses)
@@ -174,13 +174,13 @@ def test_the_ranking_is_sorted_settled_and_adds_up(problem):
         assert device.total.mass == pytest.approx(problem.robot.mass + device.mass, rel=1e-12)
 
 
-@pytest.mark.parametrize("times", [1.01, 1.05])
-def test_a_stated_spin_inertia_is_kept(problem, times):
+@pytest.mark.parametrize("factor", [1.01, 1.05])
+def test_a_specified_spin_inertia_is_kept(problem, factor):
     best = chosen(problem).best
-    # Of the same drive: another one may have less momentum in the same wheel.
+    # With the same drive, as another one may have less momentum in the same wheel.
     alone = replace(problem, motors=[best.motor], gears=[best.gear], materials=[best.material])
-    specified = times * best.spin_inertia
-    asking = replace(alone, requirement=replace(alone.requirement, spin_inertia=specified))
-    kept = select(asking).best
-    assert kept.spin_inertia == pytest.approx(specified, rel=1e-9)
-    assert kept.mass >= best.mass * (1.0 - EXACT)
+    specified = factor * best.spin_inertia
+    requirement = replace(alone.requirement, spin_inertia=specified)
+    larger = select(replace(alone, requirement=requirement)).best
+    assert larger.spin_inertia == pytest.approx(specified, rel=1e-9)
+    assert larger.mass >= best.mass * (1.0 - EXACT)

@@ -1,4 +1,4 @@
-"""What limits cost, against optimising the module anew on another path."""
+"""Shadow prices and demands of a selection, against an independent optimization."""
 
 from dataclasses import replace
 
@@ -21,13 +21,13 @@ FIELD = {
     "h_min": "height_min",
 }
 STEP = 1e-3
-"""Relative, of a limit: central differences are then right to about its square."""
+"""Relative step of a limit: the error of central differences is about its square."""
 
 
 def stressed(problem, safety):
-    """Of steel alone, and that far from its strength."""
-    room = replace(problem.envelope, stress_safety=safety)
-    return replace(problem, envelope=room, materials=(STEEL,))
+    """The problem with steel only, and this safety of the stress."""
+    envelope = replace(problem.envelope, stress_safety=safety)
+    return replace(problem, envelope=envelope, materials=(STEEL,))
 
 
 PROBLEMS = {
@@ -47,19 +47,19 @@ PROBLEMS = {
         pytest.param("crowded", marks=pytest.mark.exhaustive),
     ],
 )
-def answer(request):
+def solution(request):
     problem = replace(PROBLEMS[request.param], incidence=0.4)
     best = lightest(problem)
     return problem, best, sized_selection(problem, best, problem.robot)
 
 
-def lightest_mass(problem, device, room, stress):
-    """Of one rim with its housing, over outer and inner radius in parts of the design's."""
+def lightest_mass(problem, device, envelope, stress):
+    """Least mass of one rim with its housing, over both radii relative to the device's."""
     drive, chamfer = Drive(problem, device.motor, device.gear), chamfer_of(problem)
     density, nu = device.material.density, device.material.poisson_ratio
-    of_web = drive.web_density(density)
-    disc = (of_web, drive.web, drive.in_web) if drive.webbed else ()
-    inertia = device.spin_inertia - drive.rotor_momentum - of_web * drive.hub[1]
+    web_density = drive.web_density(density)
+    disc = (web_density, drive.web, drive.in_web) if drive.webbed else ()
+    inertia = device.spin_inertia - drive.rotor_momentum - web_density * drive.hub[1]
     radius = device.outer_radius
 
     def rims(x):
@@ -71,39 +71,39 @@ def lightest_mass(problem, device, room, stress):
 
     def mass(x):
         rim = rims(x)
-        web = rim.web(*disc) + of_web * drive.hub if drive.webbed else np.zeros(3)
+        web = rim.web(*disc) + web_density * drive.hub if drive.webbed else np.zeros(3)
         one = Rims(*np.array([[rim.outer], [rim.inner], [rim.height]]), density, chamfer)
         return rim.body[0] + web[0] + drive.standing(one)[0, 0]
 
-    def spare(x):
+    def margins(x):
         rim = rims(x)
         squares = (3.0 + nu) * rim.outer**2 + (1.0 - nu) * rim.inner**2
-        stressed = density * drive.proof_speed**2 / 4.0 * squares
+        hoop_stress = density * drive.proof_speed**2 / 4.0 * squares
         return np.array(
             [
-                1.0 - rim.outer / room.outer_radius_max,
-                rim.inner / max(room.inner_radius_min, drive.hub_radius) - 1.0,
-                1.0 - rim.height / room.height_max,
-                rim.height / max(room.height_min, drive.seat(density)) - 1.0,
-                (rim.outer - rim.inner) / room.wall_min - 1.0,
-                1.0 - rim.body[0] / room.mass_max,
-                1.0 - stressed / stress,
+                1.0 - rim.outer / envelope.outer_radius_max,
+                rim.inner / max(envelope.inner_radius_min, drive.hub_radius) - 1.0,
+                1.0 - rim.height / envelope.height_max,
+                rim.height / max(envelope.height_min, drive.seat(density)) - 1.0,
+                (rim.outer - rim.inner) / envelope.wall_min - 1.0,
+                1.0 - rim.body[0] / envelope.mass_max,
+                1.0 - hoop_stress / stress,
             ]
         )
 
-    whole = mass(np.array([1.0, device.inner_radius / radius]))
+    scale = mass(np.array([1.0, device.inner_radius / radius]))
     starts = ([1.0, device.inner_radius / radius], [0.97, 0.8], [0.97, 0.5])
     found = [
         minimize(
-            lambda x: mass(x) / whole,
+            lambda x: mass(x) / scale,
             start,
             method="SLSQP",
-            constraints={"type": "ineq", "fun": spare},
+            constraints={"type": "ineq", "fun": margins},
             options={"ftol": 1e-15, "maxiter": 500},
         )
         for start in starts
     ]
-    return whole * min(each.fun for each in found if spare(each.x).min() > -1e-9)
+    return scale * min(each.fun for each in found if margins(each.x).min() > -1e-9)
 
 
 def allowed_stress(problem, device):
@@ -111,20 +111,20 @@ def allowed_stress(problem, device):
 
 
 def masses_around(problem, device, name):
-    """With the limit a little less and a little more, and the limit's own value."""
-    room, stress = problem.envelope, allowed_stress(problem, device)
+    """Least masses with a slightly smaller and larger limit, and the value of the limit."""
+    envelope, stress = problem.envelope, allowed_stress(problem, device)
     factors = (1.0 - STEP, 1.0 + STEP)
     if name == "hoop_stress":
-        found = [lightest_mass(problem, device, room, stress * by) for by in factors]
-        return found, stress
-    value = getattr(room, FIELD[name])
-    rooms = [replace(room, **{FIELD[name]: value * by}) for by in factors]
-    return [lightest_mass(problem, device, each, stress) for each in rooms], value
+        masses = [lightest_mass(problem, device, envelope, stress * by) for by in factors]
+        return masses, stress
+    value = getattr(envelope, FIELD[name])
+    envelopes = [replace(envelope, **{FIELD[name]: value * by}) for by in factors]
+    return [lightest_mass(problem, device, each, stress) for each in envelopes], value
 
 
 @pytest.mark.slow
-def test_prices_are_what_one_more_of_a_limit_is_worth(answer):
-    problem, device, sized = answer
+def test_shadow_prices_are_derivatives_of_the_mass(solution):
+    problem, device, sized = solution
     assert sized.optimum.shadow_prices
     for name, price in sized.optimum.shadow_prices.items():
         (less, more), value = masses_around(problem, device, name)
@@ -132,30 +132,30 @@ def test_prices_are_what_one_more_of_a_limit_is_worth(answer):
         assert price == pytest.approx(expected, rel=1e-4), name
 
 
-def test_what_binds_has_a_price_if_it_is_a_limit(answer):
-    _, device, sized = answer
+def test_active_limits_have_a_price(solution):
+    _, device, sized = solution
     assert set(sized.optimum.shadow_prices) == set(device.binding) - {"housing"}
 
 
-def test_the_wheel_may_turn_as_fast_as_reserve_and_mechanics_allow(answer):
-    problem, device, sized = answer
+def test_the_wheel_speed_is_limited_by_reserve_and_mechanics(solution):
+    problem, device, sized = solution
     top = Drive(problem, device.motor, device.gear).top
     assert sized.wheel_speed_max == pytest.approx(top, rel=1e-12)
 
 
-def test_demands_are_those_of_the_inertia_with_the_device(answer):
-    """Turns: 2 I theta / T and 4 I theta / T^2, of the busier wheel (docs/theory.md)."""
-    problem, device, sized = answer
+def test_demands_use_the_inertia_with_the_device(solution):
+    """For turns 2 I theta / T and 4 I theta / T^2 of the wheel with more load (docs/theory.md)."""
+    problem, device, sized = solution
     turns = [turn for turn in problem.requirement.maneuvers if isinstance(turn, (Drop, Flip))]
     demands = {demand.source: demand for demand in sized.demands}
     assert turns
     for turn in turns:
         angle = device.incidence if turn.incidence is None else turn.incidence
-        # A cosine of 1e-17 is no lever, and of no use either.
+        # A cosine of 1e-17 counts as zero.
         levers = 2.0 * np.maximum([np.sin(angle), np.cos(angle)], 1e-12)
         shares = np.array([[np.sin(angle)], [np.cos(angle)]])
-        inertia, coupling = worked_out(problem, device, angle)
-        # Whole turns and small ones may be left to themselves where the wheels do not reach.
+        inertia, coupling = inertia_at(problem, device, angle)
+        # Full and small turns may leave an axis that the wheels do not control free.
         inertia, coupling = release_unreached(inertia, coupling, shares, 0.0)
         height = problem.requirement.standing_height
         swept, _, time = demand_of(turn, inertia, coupling, height)
@@ -165,8 +165,8 @@ def test_demands_are_those_of_the_inertia_with_the_device(answer):
         assert demands[turn.name].torque == pytest.approx(torque, rel=1e-9)
 
 
-def worked_out(problem, device, angle):
-    """Inertia about roll and pitch with the device on and turned to this angle, by hand."""
+def inertia_at(problem, device, angle):
+    """Inertia about roll and pitch, and coupling, with the device at this incidence."""
     drive = Drive(problem, device.motor, device.gear)
     sizes = (device.outer_radius, device.inner_radius, device.height)
     edges = chamfer_of(problem)
@@ -175,14 +175,16 @@ def worked_out(problem, device, angle):
     return inertia_on(problem, drive, rims, at), coupling_on(problem, drive, rims, at)
 
 
-def test_a_rate_change_is_a_demand_of_each_axis(answer):
-    problem, _, _ = answer
-    asking = replace(problem, requirement=replace(problem.requirement, rate_change=0.1))
-    device = lightest(asking)
-    demands = {each.source: each for each in sized_selection(asking, device, asking.robot).demands}
-    _, coupling = worked_out(asking, device, device.incidence)
+def test_a_rate_change_is_a_demand_of_each_axis(solution):
+    problem, _, _ = solution
+    with_rate = replace(problem, requirement=replace(problem.requirement, rate_change=0.1))
+    device = lightest(with_rate)
+    demands = {
+        each.source: each for each in sized_selection(with_rate, device, with_rate.robot).demands
+    }
+    _, coupling = inertia_at(with_rate, device, device.incidence)
     for axis, name in enumerate(("roll", "pitch")):
         expected = np.full(2, 0.1 * abs(coupling.item()))
         expected[axis] = 0.1 * device.total.inertia[axis, axis]
-        found = demands[f"rate change, {name}"].momentum
-        np.testing.assert_allclose(found, expected, rtol=1e-9, atol=1e-15)
+        momentum = demands[f"rate change, {name}"].momentum
+        np.testing.assert_allclose(momentum, expected, rtol=1e-9, atol=1e-15)

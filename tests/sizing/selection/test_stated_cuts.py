@@ -1,4 +1,4 @@
-"""Chamfers and balancing holes as a specification states them."""
+"""Chamfers, balancing holes and lightening holes as specified."""
 
 import numpy as np
 import pytest
@@ -9,26 +9,26 @@ from ocs_design.requirement.device_sections import Envelope
 from ocs_design.requirement.reading import parse_specification
 from ocs_design.sizing.specified import specified_cuts, specified_lightenings
 
-ROOM = Envelope(
+ENVELOPE = Envelope(
     outer_radius_max=0.05, inner_radius_min=0.01, height_max=0.01, height_min=0.002,
     wall_min=0.002, mass_max=np.inf, stress_safety=2.0,
 )  # fmt: skip
 
 
 def cuts_of(text):
-    return specified_cuts(parse_specification(f"[flywheel]\n{text}", "x").flywheel, ROOM)
+    return specified_cuts(parse_specification(f"[flywheel]\n{text}", "x").flywheel, ENVELOPE)
 
 
-def test_edges_are_broken_where_nothing_is_stated():
+def test_rims_have_a_chamfer_by_default():
     assert cuts_of("").chamfer == 0.2e-3
     assert cuts_of("").holes == 0
 
 
-def test_massless_spokes_carry_the_papers_sharp_rim():
+def test_without_a_web_rims_have_no_chamfer():
     assert cuts_of('web = "none"') == NO_CUTS
 
 
-def test_holes_are_those_stated():
+def test_specified_holes():
     text = 'chamfer = "0.3 mm"\nbalancing_holes = 12\nbalancing_hole_diameter = "2 mm"'
     assert cuts_of(text) == RimCuts(0.3e-3, 12, 1.0e-3, 1.0e-3)
 
@@ -37,7 +37,7 @@ def test_holes_are_those_stated():
     ("text", "count"),
     [("", 6), ("lightening = 0", 0), ("lightening = 7", 7), ('web = "aluminium"', 0)],
 )
-def test_webs_of_one_piece_are_lightened_unless_it_is_stated(text, count):
+def test_one_piece_webs_are_lightened_by_default(text, count):
     specified = parse_specification(f"[flywheel]\n{text}", "x").flywheel
     assert max(specified_lightenings(specified)) == count
 
@@ -59,10 +59,10 @@ def refusal(text):
         ('balancing_holes = 90\nbalancing_hole_diameter = "3 mm"', "0 mm is left between"),
     ],
 )
-def test_holes_without_room_are_refused(text, words):
-    said = refusal(text)
-    assert words in said
-    assert "flywheel.balancing_holes" in said
+def test_holes_that_do_not_fit_are_refused(text, words):
+    message = refusal(text)
+    assert words in message
+    assert "flywheel.balancing_holes" in message
 
 
 @pytest.mark.parametrize(
@@ -76,5 +76,5 @@ def test_holes_without_room_are_refused(text, words):
         ('lightening = 6\nweb = "none"', "has no effect where flywheel.web is 'none'"),
     ],
 )
-def test_what_cannot_be_meant_is_refused(text, words):
+def test_contradictions_are_refused(text, words):
     assert words in refusal(text)

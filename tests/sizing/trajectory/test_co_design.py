@@ -1,4 +1,4 @@
-"""The co-design: its symbols against numbers, never heavier, and what it gains in 3-D."""
+"""The co-design: symbols against numbers, never heavier, and its gains in 3-D."""
 
 from dataclasses import replace
 from functools import cache
@@ -26,20 +26,20 @@ from ocs_design.sizing.trajectory.motion import Motion
 pytestmark = pytest.mark.slow
 
 ROLL_AND_PITCH, GEARED, FLIPPING, CHANGING_RATE = 0, 21, 8, 16
-"""Seeds of random problems: what asks for most of their devices."""
+"""Seeds of random problems, named by what drives the device."""
 
 
 @cache
-def question(seed, **changes):
-    # Where a mount's holes bound the foot's plate its mass has kinks: see docs/parts.md.
+def problem_and_selection(seed, **changes):
+    # The mass has kinks where a mount's holes limit the foot's plate: see docs/parts.md.
     problem = random_problem(seed, mounted=False)
     problem = replace(problem, requirement=replace(problem.requirement, **changes))
     return problem, lightest(problem)
 
 
 @cache
-def answer(seed):
-    return co_design(*question(seed))
+def co_designed(seed):
+    return co_design(*problem_and_selection(seed))
 
 
 @pytest.fixture(
@@ -50,54 +50,54 @@ def answer(seed):
         *(pytest.param(seed, marks=pytest.mark.exhaustive) for seed in (FLIPPING, CHANGING_RATE)),
     ],
 )
-def answered(request):
-    return (*question(request.param), answer(request.param))
+def solved(request):
+    return (*problem_and_selection(request.param), co_designed(request.param))
 
 
 @pytest.mark.parametrize("seed", [0, 21])
-def test_symbols_and_numbers_are_the_same_device(seed):
-    problem, selected = question(seed)
+def test_symbolic_and_numeric_device_agree(seed):
+    problem, selected = problem_and_selection(seed)
     device, rng = FreeDevice.of(problem, selected), np.random.default_rng(seed)
     symbols = ca.MX.sym("dimensions", 3)
     mass, start = device.dimensions().objective(symbols), device.dimensions().start
     plant = ca.Function("plant", [symbols], [*device.plant(symbols), mass])
     nodes = np.linspace(device.lower, device.upper, 21)
-    through = rng.integers(21, size=(5, 2))
+    at_nodes = rng.integers(21, size=(5, 2))
     between = rng.uniform([0.9, 0.9], [1.1, 1.0], (5, 2)) * start[:2]
-    # A spline meets its nodes; where a limit of the rim begins to hold it rounds off
-    # the kink, by little more than the flight of the answer tells.
-    cases = [(np.array([nodes[i, 0], nodes[k, 1]]), 1e-12, 1e-12) for i, k in through]
+    # A spline is exact at its nodes; where a limit of the rim becomes active it smooths the kink,
+    # by little more than the tolerance of the flight.
+    cases = [(np.array([nodes[i, 0], nodes[k, 1]]), 1e-12, 1e-12) for i, k in at_nodes]
     cases += [(point, 1.5 * DEFECT_MAX, 1e-3) for point in between]
-    for point, of_inertia, of_mass in cases:
+    for point, inertia_tolerance, mass_tolerance in cases:
         dimensions = np.append(point, rng.uniform(0.0, 1.57))
         found = device.at(*dimensions)
         inertia, axes, spin_inertia, armature, mass = plant(dimensions)
-        atol = of_inertia * found.total.inertia.max()
+        atol = inertia_tolerance * found.total.inertia.max()
         np.testing.assert_allclose(inertia, found.total.inertia, rtol=0, atol=atol)
         np.testing.assert_allclose(axes, module_axes(dimensions[2]), rtol=0, atol=1e-15)
         assert float(spin_inertia) == pytest.approx(found.spin_inertia, rel=1e-12)
         assert float(armature) == selected.drive.armature
-        assert float(mass) * selected.mass == pytest.approx(found.mass, rel=of_mass)
+        assert float(mass) * selected.mass == pytest.approx(found.mass, rel=mass_tolerance)
 
 
-def as_selected(problem, selected):
-    """The device with the wheels that were selected."""
+def with_selected_wheels(problem, selected):
+    """The co-design's device with the wheels of the selection."""
     return next(with_wheels(problem, selected, np.ones(1), np.ones(1)))
 
 
 @pytest.mark.parametrize("seed", [ROLL_AND_PITCH, GEARED, FLIPPING, CHANGING_RATE])
-def test_the_selected_device_is_where_the_search_begins(seed):
-    """Flatter modules than the lightest one of its radius help a little where they are selected."""
-    problem, selected = question(seed)
-    found = as_selected(problem, selected)
+def test_the_search_starts_at_the_selected_device(seed):
+    """It may be slightly lighter, as flatter modules of the selected radius are allowed."""
+    problem, selected = problem_and_selection(seed)
+    found = with_selected_wheels(problem, selected)
     assert found.spin_inertia == pytest.approx(selected.spin_inertia, rel=1e-12)
     assert found.outer_radius == pytest.approx(selected.outer_radius, rel=1e-12)
     assert found.mass <= selected.mass * (1.0 + 1e-9)
     assert found.mass == pytest.approx(selected.mass, rel=1e-4)
 
 
-def test_it_is_never_heavier_and_says_what_it_did(answered):
-    _, selected, found = answered
+def test_the_co_design_is_never_heavier_and_explains_its_result(solved):
+    _, selected, found = solved
     assert found.status == "Solve_Succeeded"
     assert found.device.mass <= selected.mass
     assert found.adopted == (found.gain > LEAST_GAIN)
@@ -105,13 +105,13 @@ def test_it_is_never_heavier_and_says_what_it_did(answered):
     assert ("selection stands" in found.note) != found.adopted
 
 
-def test_its_maneuvers_hold_on_the_fine_grid(answered):
-    problem, selected, found = answered
+def test_its_maneuvers_are_feasible_on_the_fine_grid(solved):
+    problem, selected, found = solved
     assert len(found.flights) == len(problem.requirement.maneuvers)
     line, standing = selected.line.reserved(), problem.requirement.standing_height
     for maneuver, flight in zip(problem.requirement.maneuvers, found.flights, strict=True):
-        own = found.device.incidence if maneuver.incidence is None else maneuver.incidence
-        wheels = Gyrostat(np.eye(3), module_axes(own), 1.0)
+        angle = found.device.incidence if maneuver.incidence is None else maneuver.incidence
+        wheels = Gyrostat(np.eye(3), module_axes(angle), 1.0)
         assert flight.violation < 1e-6
         assert attitude_error(maneuver.boundary(standing), flight.trajectory) < 1e-4
         assert end_rate(wheels, flight.trajectory) < 1e-4
@@ -119,8 +119,8 @@ def test_its_maneuvers_hold_on_the_fine_grid(answered):
         assert np.abs(flight.trajectory.wheel_torque).max() <= line.torque_limit * (1.0 + 1e-6)
 
 
-def test_its_rim_is_within_the_limits(answered):
-    _, selected, found = answered
+def test_its_rim_is_within_the_limits(solved):
+    _, selected, found = solved
     limits, rim = selected.limits, found.device
     nu, slack = limits.poisson_ratio, 1.0 + 1e-9
     assert rim.outer_radius <= limits.outer_radius_max * slack
@@ -132,8 +132,8 @@ def test_its_rim_is_within_the_limits(answered):
     assert stretch <= limits.stretch_max * (1.0 + 1e-6)
 
 
-def test_what_is_adopted_is_a_whole_device(answered):
-    problem, selected, found = answered
+def test_an_adopted_device_is_consistent(solved):
+    problem, selected, found = solved
     device = found.device
     if not found.adopted:
         assert device is selected
@@ -152,21 +152,21 @@ def test_what_is_adopted_is_a_whole_device(answered):
 
 
 def test_roll_and_pitch_at_once_gain_in_3d():
-    """The closed form holds the axis and the wheels in proportion; in 3-D neither needs to be."""
-    found = answer(ROLL_AND_PITCH)
+    """The closed form fixes the axis and the ratio of the wheels; in 3-D both are free."""
+    found = co_designed(ROLL_AND_PITCH)
     assert found.adopted
     assert found.gain > 0.007
 
 
-def test_a_change_of_rate_binds_as_in_the_closed_form():
+def test_a_rate_change_gains_nothing():
     """No maneuver in 3-D makes it easier."""
-    _, selected = question(CHANGING_RATE)
+    _, selected = problem_and_selection(CHANGING_RATE)
     assert selected.binding_maneuver.startswith("rate change")
-    assert abs(answer(CHANGING_RATE).gain) < 3e-4
+    assert abs(co_designed(CHANGING_RATE).gain) < 3e-4
 
 
-def test_a_stated_spin_inertia_is_kept():
-    problem, selected = question(ROLL_AND_PITCH)
+def test_a_specified_spin_inertia_is_kept():
+    problem, selected = problem_and_selection(ROLL_AND_PITCH)
     specified = replace(problem.requirement, spin_inertia=selected.spin_inertia)
     found = co_design(replace(problem, requirement=specified), selected)
     assert not found.adopted
@@ -174,8 +174,8 @@ def test_a_stated_spin_inertia_is_kept():
     assert "is specified" in found.note
 
 
-def test_where_the_room_leaves_one_wheel_only_the_selection_stands():
-    problem, selected = question(ROLL_AND_PITCH)
+def test_limits_that_leave_one_wheel_keep_the_selection():
+    problem, selected = problem_and_selection(ROLL_AND_PITCH)
     size = {
         "outer_radius_max": selected.outer_radius,
         "inner_radius_min": selected.inner_radius,
@@ -188,10 +188,10 @@ def test_where_the_room_leaves_one_wheel_only_the_selection_stands():
     assert "no choice" in found.note
 
 
-def test_where_ipopt_gives_up_the_selection_stands(monkeypatch):
+def test_a_failure_of_ipopt_keeps_the_selection(monkeypatch):
     monkeypatch.setattr(program, "ITERATIONS_MAX", 3)
-    _, selected = question(ROLL_AND_PITCH)
-    found = co_design(*question(ROLL_AND_PITCH))
+    _, selected = problem_and_selection(ROLL_AND_PITCH)
+    found = co_design(*problem_and_selection(ROLL_AND_PITCH))
     assert not found.adopted
     assert found.status == "Maximum_Iterations_Exceeded"
     assert found.status in found.note
@@ -199,8 +199,8 @@ def test_where_ipopt_gives_up_the_selection_stands(monkeypatch):
 
 
 @pytest.mark.exhaustive
-def test_where_only_the_finer_mesh_fails_the_coarse_one_counts(monkeypatch):
-    """In time to stand: its second pass is left two iterations."""
+def test_the_coarse_mesh_counts_where_the_finer_one_fails(monkeypatch):
+    """The second pass has two iterations only."""
     refined = Motion.refined
 
     def second_pass(motion, intervals):
@@ -208,13 +208,13 @@ def test_where_only_the_finer_mesh_fails_the_coarse_one_counts(monkeypatch):
         return refined(motion, intervals)
 
     monkeypatch.setattr(Motion, "refined", second_pass)
-    found = co_design(*question(ROLL_AND_PITCH))
+    found = co_design(*problem_and_selection(ROLL_AND_PITCH))
     assert found.status == "Solve_Succeeded"
     assert found.adopted
 
 
 @pytest.mark.exhaustive
-def test_the_incidence_stays_where_it_is_stated():
+def test_a_specified_incidence_is_kept():
     problem = replace(random_problem(ROLL_AND_PITCH, mounted=False), incidence=0.5)
     selected = lightest(problem)
     assert co_design(problem, selected).device.incidence == 0.5

@@ -1,3 +1,5 @@
+"""Radau collocation and Bernstein polynomials against exact integrals and derivatives."""
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -28,7 +30,7 @@ def test_three_radau_points_are_those_of_the_literature():
     )
 
 
-def test_a_cubic_is_differentiated_and_written_in_bernstein_form_exactly():
+def test_derivative_and_bernstein_form_of_a_cubic_are_exact():
     values = CUBIC(table.NODES)
     np.testing.assert_allclose(
         table.DERIVATIVE @ values, CUBIC.deriv()(table.NODES[1:]), rtol=1e-12
@@ -43,7 +45,7 @@ def test_radau_quadrature_is_exact_to_the_fourth_power():
         assert table.WEIGHTS @ table.NODES[1:] ** power == pytest.approx(1.0 / (power + 1))
 
 
-def test_torques_keep_their_values_and_their_square():
+def test_torques_at_nodes_elevated_and_squared_are_exact():
     middle = 2.0 * PARABOLA(0.5) - (PARABOLA(0.0) + PARABOLA(1.0)) / 2.0
     coefficients = np.array([PARABOLA(0.0), middle, PARABOLA(1.0)])
     np.testing.assert_allclose(table.TORQUE @ coefficients, PARABOLA(table.NODES[1:]), rtol=1e-12)
@@ -56,9 +58,9 @@ def test_torques_keep_their_values_and_their_square():
 @given(arrays(np.float64, DEGREE + 1, elements=st.floats(-10.0, 10.0)))
 def test_a_polynomial_lies_between_its_bernstein_coefficients(values):
     coefficients = table.BERNSTEIN @ values
-    between = bernstein_basis(S, DEGREE) @ coefficients
-    assert between.min() >= coefficients.min() - 1e-9
-    assert between.max() <= coefficients.max() + 1e-9
+    polynomial = bernstein_basis(S, DEGREE) @ coefficients
+    assert polynomial.min() >= coefficients.min() - 1e-9
+    assert polynomial.max() <= coefficients.max() + 1e-9
 
 
 def _motion(torque, intervals):
@@ -71,7 +73,7 @@ def _motion(torque, intervals):
     return Motion(lengths, np.tile(CUBIC(nodes), (6, 1)), np.tile(torques, (2, 1)))
 
 
-def test_a_motion_of_polynomials_survives_other_intervals():
+def test_a_polynomial_motion_is_kept_on_other_intervals():
     motion = _motion(PARABOLA, 5)
     lengths = np.array([0.3, 0.5, 0.1, 1.1])
     moved = motion.onto(lengths)
@@ -83,13 +85,13 @@ def test_a_motion_of_polynomials_survives_other_intervals():
     np.testing.assert_allclose(within[:, 0], PARABOLA(middles.T.ravel()), rtol=0, atol=1e-5)
 
 
-def test_intervals_get_short_where_torques_switch():
+def test_refinement_shortens_intervals_where_torques_switch():
     motion = _motion(lambda time: np.where(time < 1.21, 1.0, -1.0), 10)
     lengths = motion.refined(20).lengths
     middles = np.cumsum(lengths) - lengths / 2.0
     assert lengths.sum() == pytest.approx(2.0)
     assert lengths[np.argmin(np.abs(middles - 1.25))] < 0.3 * lengths.mean()
-    # Where nothing changes the evenly spread share is all that there is.
+    # Where nothing changes only the uniform share of the intervals remains.
     assert lengths.max() < 2.0 / 20 / 0.39
 
 

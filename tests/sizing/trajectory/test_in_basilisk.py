@@ -1,4 +1,4 @@
-"""Plans of the programme, integrated by Basilisk's own equations of a craft with wheels."""
+"""Plans, integrated by Basilisk's own equations of a spacecraft with wheels."""
 
 import json
 import os
@@ -20,7 +20,7 @@ from ocs_design.sizing.trajectory.plans import INTERVALS, gentlest
 SCRIPT = Path(__file__).parents[2] / "in_basilisk.py"
 PYTHON = os.environ.get("BASILISK_PYTHON", sys.executable)
 STEPS = 8
-"""Of Basilisk in one of the fine grid, each with the mean of its torque."""
+"""Steps of Basilisk per step of the fine grid, each with its mean torque."""
 
 FORTY = np.radians(40.0)
 YAW = TurnTo(name="yaw", jump_height=1.0, yaw=np.pi / 2.0, duration=2.4)
@@ -40,10 +40,10 @@ TRIAD = Layout(LayoutName.TRIAD).axes(0.0)
     ],
     ids=["drop", "back-flip", "yaw by two wheels", "yaw by three wheels", "catch by a triad"],
 )
-def test_a_plan_ends_there_too(maneuver, gyrostat):
+def test_basilisk_agrees_with_a_plan(maneuver, gyrostat):
     """Attitude within 0.1 deg, wheel speeds within 1e-6 of the fastest, at every instant."""
-    sought = [PYTHON, "-c", "import Basilisk"]
-    if subprocess.run(sought, check=False, capture_output=True).returncode:
+    command = [PYTHON, "-c", "import Basilisk"]
+    if subprocess.run(command, check=False, capture_output=True).returncode:
         pytest.skip("no Basilisk (pip install bsk) in this environment or in BASILISK_PYTHON")
     start = boundary_of(maneuver)
     planned = gentlest(start, gyrostat, EC_45_FLAT)
@@ -57,7 +57,7 @@ def test_a_plan_ends_there_too(maneuver, gyrostat):
         for share, part in ((1 / 6, 0.0), (4 / 6, 0.5), (1 / 6, 1.0))
     )
     assert TORQUE_DEGREE == 2
-    told = {
+    problem = {
         "step": start.duration / INTERVALS / count,
         "inertia": gyrostat.inertia.tolist(),
         "axes": gyrostat.axes.tolist(),
@@ -67,11 +67,11 @@ def test_a_plan_ends_there_too(maneuver, gyrostat):
         "speed": trajectory.wheel_speed[0].tolist(),
         "torques": torques.tolist(),
     }
-    ran = subprocess.run(
-        [PYTHON, SCRIPT], input=json.dumps(told), capture_output=True, text=True, check=True
+    done = subprocess.run(
+        [PYTHON, SCRIPT], input=json.dumps(problem), capture_output=True, text=True, check=True
     )
-    found = json.loads(ran.stdout[ran.stdout.index("{") :])
-    speed, attitude = (np.array(found[name])[STEPS - 1 :: STEPS] for name in ("speed", "attitude"))
+    states = json.loads(done.stdout[done.stdout.index("{") :])
+    speed, attitude = (np.array(states[name])[STEPS - 1 :: STEPS] for name in ("speed", "attitude"))
     largest = np.abs(trajectory.wheel_speed).max()
     np.testing.assert_allclose(speed, trajectory.wheel_speed[1:], rtol=0, atol=1e-6 * largest)
     cosine = np.abs(np.einsum("ij,ij->i", attitude, trajectory.attitude[1:]))

@@ -1,4 +1,4 @@
-"""Plans and gains about a pivot against scalar equations that know no quaternions."""
+"""Plans and gains about a pivot against scalar equations of a pendulum."""
 
 from dataclasses import replace
 
@@ -30,13 +30,13 @@ def gyrostat(maneuver, spin_inertia):
 
 
 def pendulum(tilt, rate, spin_inertia, trajectory, until):
-    """`(I - h) w' = m g l sin(theta) - tau`, `h (w' + W') = tau` with the planned torque."""
+    """Solve `(I - h) w' = m g l sin(theta) - tau`, `h (w' + W') = tau` with the planned torque."""
 
     def slope(time, state):
         theta, speed, _ = state
         torque = np.interp(time, trajectory.time, trajectory.wheel_torque[:, 0])
-        turning = (WEIGHT * np.sin(theta) - torque) / (INERTIA - spin_inertia)
-        return [speed, turning, torque / spin_inertia - turning]
+        acceleration = (WEIGHT * np.sin(theta) - torque) / (INERTIA - spin_inertia)
+        return [speed, acceleration, torque / spin_inertia - acceleration]
 
     return solve_ivp(slope, (0.0, until), [tilt, rate, 0.0], rtol=1e-9, atol=1e-11, max_step=1e-3)
 
@@ -54,7 +54,7 @@ def test_a_plan_stands_the_scalar_pendulum_up():
 @pytest.mark.slow
 @pytest.mark.parametrize(("time", "rpm"), [(0.3, 0.0), (0.3, -2000.0)])
 def test_the_closed_form_is_near_the_smallest_wheel(time, rpm):
-    """What the selection sizes for is within a tenth of what planned climbs from 36 deg need."""
+    """The selection's estimate is within 10 % of what planned stand-ups from 36 deg need."""
     up = replace(UP, duration=time, wheel_speed=rpm * np.pi / 30.0)
     low, high = 3e-4, 3e-3
     while high > 1.05 * low:
@@ -71,12 +71,12 @@ def test_the_closed_form_is_near_the_smallest_wheel(time, rpm):
         initial_speed=slew.initial_speed,
         one_way=slew.one_way,
     )
-    closed = smallest_spin_inertia(task, LINE.reserved(PLANNED))
-    assert high / closed == pytest.approx(1.0, abs=0.1)
+    closed_form = smallest_spin_inertia(task, LINE.reserved(PLANNED))
+    assert high / closed_form == pytest.approx(1.0, abs=0.1)
 
 
 @pytest.mark.slow
-def test_a_wheel_that_is_too_small_says_from_where_it_stands_up():
+def test_a_plan_that_fails_says_from_which_tilt_it_would_succeed():
     refused = reference(gyrostat(UP, 3e-4), LINE, UP, 0.1)
     assert refused.trajectory is None
     assert 0.2 < refused.part < 1.0
@@ -85,8 +85,8 @@ def test_a_wheel_that_is_too_small_says_from_where_it_stands_up():
 
 
 @pytest.mark.slow
-def test_a_wheel_that_begins_spinning_backwards_may_be_smaller():
-    """Wheelbot spins up to 2,000 rpm the other way before it stands up from 36 deg."""
+def test_a_wheel_that_starts_spinning_backwards_may_be_smaller():
+    """Wheelbot spins up to 2,000 rpm backwards before it stands up from 36 deg."""
     smaller = gyrostat(UP, 6e-4)
     assert reference(smaller, LINE, UP, 0.1).trajectory is None
     spun = replace(UP, wheel_speed=-2000.0 * np.pi / 30.0)
@@ -94,21 +94,21 @@ def test_a_wheel_that_begins_spinning_backwards_may_be_smaller():
 
 
 def test_poles_of_the_inverted_pendulum():
-    """Wheels that turn freely carry none of their spin: `l^2 = m g l / (I - h)`."""
+    """Free wheels do not turn with the body about their axis: `l^2 = m g l / (I - h)`."""
     h = 1e-3
     upright = np.array([[0.0, 0.0, 1.0]])
     system = linearised(gyrostat(UP, h), np.zeros((1, 3)), np.zeros((1, 1)), upright)[0]
     poles = np.sort(np.linalg.eigvals(system[:, :7]).real)
-    quick = np.sqrt(WEIGHT / (INERTIA - h))
-    np.testing.assert_allclose(poles[[0, -1]], [-quick, quick], rtol=1e-9)
+    pole = np.sqrt(WEIGHT / (INERTIA - h))
+    np.testing.assert_allclose(poles[[0, -1]], [-pole, pole], rtol=1e-9)
     np.testing.assert_allclose(poles[1:-1], 0.0, atol=1e-9)
 
 
-def test_the_regulator_holds_it_upright_and_brings_the_wheel_to_rest():
-    h, caught = 1e-3, Balance(name="b", **PLACE, roll=0.1, duration=1.0).on(BODY)
-    body = gyrostat(caught, h)
-    gains = reference(body, LINE, caught, 0.1).trajectory.gains[0]
+def test_the_regulator_keeps_the_body_upright_and_stops_the_wheel():
+    h, maneuver = 1e-3, Balance(name="b", **PLACE, roll=0.1, duration=1.0).on(BODY)
+    body = gyrostat(maneuver, h)
+    gains = reference(body, LINE, maneuver, 0.1).trajectory.gains[0]
     system = linearised(body, np.zeros((1, 3)), np.zeros((1, 1)), np.array([[0.0, 0.0, 1.0]]))[0]
-    kept = [0, 3, 6]
-    closed = (system[:, :7] - system[:, 7:8] @ gains)[np.ix_(kept, kept)]
-    assert np.linalg.eigvals(closed).real.max() < -0.5
+    states = [0, 3, 6]
+    closed_loop = (system[:, :7] - system[:, 7:8] @ gains)[np.ix_(states, states)]
+    assert np.linalg.eigvals(closed_loop).real.max() < -0.5

@@ -1,4 +1,4 @@
-"""What a plan is made for: robot and device as one gyrostat, the drives as they are."""
+"""Plans: robot and device as one gyrostat, and the limits of the drives."""
 
 from dataclasses import replace
 from math import inf
@@ -24,24 +24,24 @@ def device(request):
 
 
 def test_the_gyrostat_is_robot_and_device_braked(device):
-    """What a pendulum would say: the rotors are in the carriers' inertia, not a second time."""
-    found = gyrostat_of(ROBOT.mass_properties, device)
+    """As measured by a pendulum: the carriers' inertia includes the rotors, counted once."""
+    gyrostat = gyrostat_of(ROBOT.mass_properties, device)
     expected = braked_inertia(ROBOT, device).inertia
-    np.testing.assert_allclose(found.inertia, expected, rtol=1e-12, atol=1e-15)
-    np.testing.assert_array_equal(found.axes, device.axes)
-    assert found.spin_inertia == PAPER_WHEEL.spin_inertia + device.motor.rotor_inertia
-    assert found.armature == device.motor.armature
+    np.testing.assert_allclose(gyrostat.inertia, expected, rtol=1e-12, atol=1e-15)
+    np.testing.assert_array_equal(gyrostat.axes, device.axes)
+    assert gyrostat.spin_inertia == PAPER_WHEEL.spin_inertia + device.motor.rotor_inertia
+    assert gyrostat.armature == device.motor.armature
 
 
-def test_momentum_is_that_of_all_bodies_one_by_one(device):
-    """Of trunk rate w and wheel speeds W: I w + A h W, the rotors counted with their sense."""
+def test_momentum_is_the_sum_over_all_bodies(device):
+    """I w + A h W for trunk rate w and wheel speeds W, with the rotors' sense of rotation."""
     rate, speed = np.array([0.3, -0.7, 0.2]), np.array([400.0, -250.0])
     by_bodies = braked_inertia(ROBOT, device).inertia @ rate
-    for module, turning in zip(device.modules, speed, strict=True):
+    for module, wheel_speed in zip(device.modules, speed, strict=True):
         rim = np.pi * 7860.0 * 0.01 * (0.03**4 - 0.022**4) / 2.0
-        by_bodies = by_bodies + module.axis * (rim + device.motor.rotor_inertia) * turning
-    found = gyrostat_of(ROBOT.mass_properties, device).mass_matrix[:3] @ [*rate, *speed]
-    np.testing.assert_allclose(found, by_bodies, rtol=1e-10)
+        by_bodies = by_bodies + module.axis * (rim + device.motor.rotor_inertia) * wheel_speed
+    momentum = gyrostat_of(ROBOT.mass_properties, device).mass_matrix[:3] @ [*rate, *speed]
+    np.testing.assert_allclose(momentum, by_bodies, rtol=1e-10)
 
 
 def test_the_line_is_that_of_the_motor():
@@ -50,7 +50,7 @@ def test_the_line_is_that_of_the_motor():
     assert (line.torque_limit, line.speed_max) == (EC45.torque_limit, EC45.speed_max)
 
 
-def test_what_is_not_known_does_not_limit():
+def test_unknown_figures_do_not_limit():
     unlimited = replace(EC45, stall_torque=None, torque_limit=None, speed_max=None)
     line = drive_line_of(driven_device(drive=unlimited))
     assert (line.stall_torque, line.torque_limit, line.speed_max) == (inf, inf, inf)
@@ -72,7 +72,7 @@ def test_each_turn_has_a_plan_and_a_push_has_none(plans):
 
 
 @pytest.mark.parametrize(("name", "incidence"), [("drop", 40.0), ("back-flip", 0.0)])
-def test_a_plan_is_flown_at_its_own_incidence(plans, name, incidence):
+def test_a_plan_is_for_its_maneuvers_incidence(plans, name, incidence):
     """From rest to rest the momentum of trunk and wheels is zero at any time: I w + h A W = 0."""
     device, trajectory = driven_device(np.radians(incidence)), plans[name].trajectory
     trunk = trajectory.rate @ braked_inertia(ROBOT, device).inertia
@@ -80,12 +80,12 @@ def test_a_plan_is_flown_at_its_own_incidence(plans, name, incidence):
     assert np.abs(trunk + wheels).max() < 1e-6 * np.abs(wheels).max()
 
 
-def test_a_plan_leaves_the_feedback_something(plans):
+def test_a_plan_leaves_a_margin_for_the_feedback(plans):
     for name in ("drop", "back-flip"):
         trajectory = plans[name].trajectory
         assert plans[name].note == ""
         share = trajectory.wheel_speed / EC45.no_load_speed
         share = share + trajectory.wheel_torque / EC45.stall_torque
         assert np.abs(share).max() <= (1.0 + RESERVE) / 2.0 + 1e-6
-        most = EC45.torque_limit * (1.0 + RESERVE) / 2.0
-        assert np.abs(trajectory.wheel_torque).max() <= most + 1e-6
+        torque_max = EC45.torque_limit * (1.0 + RESERVE) / 2.0
+        assert np.abs(trajectory.wheel_torque).max() <= torque_max + 1e-6

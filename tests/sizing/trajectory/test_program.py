@@ -1,4 +1,4 @@
-"""Maneuvers in 3-D: laws of motion, limits, and integrators that know nothing of collocation."""
+"""Maneuvers in 3-D: laws of motion, limits, and independent integrators."""
 
 from dataclasses import replace
 
@@ -50,7 +50,7 @@ CASES = {
 }
 
 
-# In turn: each case is quick with one of both wheels.
+# Each case is fast with one of both kinds of wheels.
 KINDS = [(name, ("given", "least")[(i + k) % 2]) for k in (0, 1) for i, name in enumerate(CASES)]
 
 
@@ -62,11 +62,11 @@ KINDS = [(name, ("given", "least")[(i + k) % 2]) for k in (0, 1) for i, name in 
     ],
 )
 def solved(request):
-    """Smooth torques with the wheels that are given, switching ones with the smallest."""
+    """Smooth torques with the given wheels, switching ones with the smallest."""
     name, wheels = request.param
     gyrostat, maneuver = CASES[name]
     if wheels == "least":
-        # Even intervals, on which the means at jumps of the torque cancel.
+        # On equal intervals the means at steps of the torque cancel.
         found = smallest_wheels(gyrostat, boundary_of(maneuver), passes=(24,))
         return found.gyrostat, boundary_of(maneuver), found
     return gyrostat, boundary_of(maneuver), _planned(gyrostat, maneuver)
@@ -80,7 +80,7 @@ def _momentum(gyrostat, path):
     return path.rate @ gyrostat.inertia + gyrostat.spin_inertia * path.wheel_speed @ gyrostat.axes.T
 
 
-def test_it_ends_at_rest_where_it_should(solved):
+def test_it_ends_at_rest_at_the_final_attitude(solved):
     _, boundary, solution = solved
     assert solution.solution.solved
     assert not solution.failure
@@ -98,32 +98,31 @@ def test_limits_hold_at_every_sample(solved):
     path, line = solution.trajectory, EC_45_FLAT
     assert np.abs(path.wheel_torque).max() <= line.torque_limit * (1.0 + 1e-6)
     slope = line.no_load_speed / line.stall_torque
-    reached = np.abs(path.wheel_speed + slope * path.wheel_torque).max()
-    assert reached <= line.no_load_speed * (1.0 + 1e-6)
+    largest = np.abs(path.wheel_speed + slope * path.wheel_torque).max()
+    assert largest <= line.no_load_speed * (1.0 + 1e-6)
     assert solution.violation < 1e-6
 
 
-def test_momentum_is_kept_in_the_world(solved):
-    """Its length, and its part along the vertical."""
+def test_momentum_is_conserved_in_the_world(solved):
+    """Its magnitude and its vertical component."""
     gyrostat, _, solution = solved
     path = solution.trajectory
     momentum = _momentum(gyrostat, path)
     largest = np.abs(gyrostat.spin_inertia * path.wheel_speed).max()
     length = np.linalg.norm(momentum, axis=1)
-    upward = np.einsum("ij,ij->i", momentum, path.vertical)
+    vertical = np.einsum("ij,ij->i", momentum, path.vertical)
     np.testing.assert_allclose(length, length[0], rtol=0, atol=1e-6 * largest)
-    np.testing.assert_allclose(upward, upward[0], rtol=0, atol=1e-6 * largest)
+    np.testing.assert_allclose(vertical, vertical[0], rtol=0, atol=1e-6 * largest)
 
 
-def test_the_motors_pay_for_the_kinetic_energy(solved):
+def test_the_motors_work_becomes_kinetic_energy(solved):
     gyrostat, _, solution = solved
     path = solution.trajectory
     state = np.hstack([path.rate, path.wheel_speed])
     energy = 0.5 * np.einsum("ni,ij,nj->n", state, gyrostat.mass_matrix, state)
     power = np.einsum("ni,ni->n", path.wheel_torque, path.wheel_speed)
-    # Simpson's rule on pairs of steps, five in each interval of the plan. Where two intervals meet
-    # torques may jump, and the sample is the mean of both sides: what that adds on one side it
-    # takes on the other.
+    # Simpson's rule on pairs of steps, five in each interval of the plan. Between intervals torques
+    # may jump, and the sample is the mean of both sides: the errors of both sides cancel.
     pairs = np.diff(path.time)[::2] / 3.0 * (power[:-2:2] + 4.0 * power[1:-1:2] + power[2::2])
     error = energy[2::2] - energy[0] - np.cumsum(pairs)
     inside = np.arange(len(pairs)) % 5 != 4
@@ -135,7 +134,7 @@ def test_the_motors_pay_for_the_kinetic_energy(solved):
 @pytest.mark.parametrize("name", ["pitch and roll", "back-flip at an angle", "push"])
 def test_mujoco_ends_where_the_plan_ends(name):
     gyrostat, maneuver = CASES[name]
-    # Between its samples a trajectory is linear: on more intervals that is nearer to the plan.
+    # Trajectories are linear between samples: more intervals are closer to the plan.
     path = _planned(gyrostat, maneuver, intervals=60).trajectory
     model = _gyrostat_in_mujoco(gyrostat)
     data = mujoco.MjData(model)
@@ -160,7 +159,7 @@ def test_mujoco_ends_where_the_plan_ends(name):
 
 
 def _gyrostat_in_mujoco(gyrostat):
-    """Two wheels at the centre of mass, and what they leave of the inertia in the trunk."""
+    """Two wheels at the centre of mass, and the remaining inertia in the trunk."""
     spin = gyrostat.spin_inertia
     trunk, wheels = gyrostat.inertia.copy(), ""
     for axis in gyrostat.axes.T:
@@ -185,8 +184,8 @@ def test_least_effort_without_limits_is_a_parabola_of_angle():
     free = DriveLine(np.inf, 1e5, np.inf, np.inf)
     found = _planned(gyrostat, drop(30.0), free)
     reduced = DIAGONAL[1, 1] - 2.0 * gyrostat.spin_inertia
-    each = reduced * np.radians(30.0) / 2.0
-    assert _effort(found) == pytest.approx(2.0 * 12.0 * each**2 / FALL**3, rel=1e-6)
+    share = reduced * np.radians(30.0) / 2.0
+    assert _effort(found) == pytest.approx(2.0 * 12.0 * share**2 / FALL**3, rel=1e-6)
     torque = found.trajectory.wheel_torque[:, 0]
     np.testing.assert_allclose(torque, np.linspace(torque[0], -torque[0], len(torque)), atol=1e-6)
 
@@ -194,8 +193,8 @@ def test_least_effort_without_limits_is_a_parabola_of_angle():
 def _effort(planned):
     """Integral of all squared torques [N^2 m^2 s]."""
     motion = planned.solution.motions[0]
-    each = motion.torques.reshape(len(motion.torques), len(motion.lengths), -1)
-    return np.einsum("ika,ab,ikb,k->", each, SQUARE, each, motion.lengths)
+    coefficients = motion.torques.reshape(len(motion.torques), len(motion.lengths), -1)
+    return np.einsum("ika,ab,ikb,k->", coefficients, SQUARE, coefficients, motion.lengths)
 
 
 def test_a_mechanical_speed_limit_is_kept():
@@ -206,21 +205,21 @@ def test_a_mechanical_speed_limit_is_kept():
 
 
 @pytest.mark.parametrize("weak", [{"torque_limit": 0.3}, {"power_max": 10.0}])
-def test_what_is_out_of_reach_is_said_to_be(weak):
+def test_weak_drives_have_no_solution(weak):
     found = _planned(body(FORTY), drop(30.0), replace(EC_45_FLAT, **weak))
     assert not found.solution.solved
     assert found.failure.startswith("no solution within the limits in ")
 
 
-def test_an_axis_out_of_reach_is_left_alone():
-    """At alpha = 0 roll stays as it is, and the end of pitch is met."""
+def test_an_uncontrolled_axis_is_left_free():
+    """At alpha = 0 roll is not changed, and pitch ends as required."""
     found = _planned(body(0.0, inertia=FULL), drop(20.0, 15.0))
     assert not found.failure
     assert found.trajectory.vertical[-1, 0] == pytest.approx(0.0, abs=1e-6)
     assert np.degrees(attitude_error(boundary_of(drop(20.0, 15.0)), found.trajectory)) > 10.0
 
 
-def test_level_from_the_start_asks_for_nothing():
+def test_a_level_start_needs_no_torque():
     found = _planned(body(FORTY), drop(0.0))
     assert not found.failure
     assert _effort(found) < 1e-12
@@ -234,12 +233,12 @@ def test_a_push_that_outlasts_the_flight_is_refused():
         boundary_of(late)
 
 
-def test_a_push_leaves_what_eulers_equation_says():
+def test_the_state_after_a_push_follows_eulers_equation():
     inertia = CASES["push"][0].inertia
     torque = np.array(PUSH.torque)
 
     def slope(_, state):
-        """Of the upward direction in B and the rate."""
+        """Derivative of the vertical in B and of the rate."""
         vertical, rate = state[:3], state[3:]
         change = np.linalg.solve(inertia, torque - np.cross(rate, inertia @ rate))
         return np.concatenate([np.cross(vertical, rate), change])
@@ -251,8 +250,8 @@ def test_a_push_leaves_what_eulers_equation_says():
     np.testing.assert_allclose(rate, end[3:], rtol=1e-8)
 
 
-def test_tumbling_with_wheels_that_spin_it_comes_to_rest():
-    """Three wheels across each other take any momentum, the heading's too."""
+def test_a_tumbling_body_with_spinning_wheels_comes_to_rest():
+    """Three orthogonal wheels absorb any momentum, including that of the heading."""
     gyrostat = Gyrostat(FULL, np.eye(3), 2e-4)
     start = Boundary(
         name="caught",
@@ -277,13 +276,13 @@ def test_tumbling_with_wheels_that_spin_it_comes_to_rest():
 
 
 def _power(path, line=EC_45_FLAT):
-    """Of both motors at every sample, R i^2 = w_0 / tau_s tau^2 [W]."""
+    """Power of both motors at every sample, with R i^2 = w_0 / tau_s tau^2 [W]."""
     torque, slope = path.wheel_torque, line.no_load_speed / line.stall_torque
     return (torque * (slope * torque + path.wheel_speed)).sum(axis=1)
 
 
 @pytest.mark.parametrize("name", fast_subset(3, ["pitch and roll", "pitch", "half a flip"]))
-def test_the_peak_power_is_less_than_that_of_least_effort_both_ways(name):
+def test_a_power_limit_reduces_the_peak_power(name):
     gyrostat, maneuver = CASES[name]
     before = np.abs(_power(_planned(gyrostat, maneuver).trajectory)).max()
     found = _planned(gyrostat, maneuver, replace(EC_45_FLAT, power_max=before))
@@ -301,8 +300,8 @@ def test_power_is_a_limit_at_every_sample():
     assert limit_violation(path.wheel_speed, path.wheel_torque, replace(tight, power_max=1.0)) > 1.0
 
 
-def test_a_kept_program_remembers_nothing_of_other_turns():
-    """A program of the same shape is solved for another turn in between."""
+def test_a_cached_program_keeps_no_state_of_other_turns():
+    """A program of the same dimensions is solved for another turn in between."""
     line = replace(EC_45_FLAT, power_max=300.0)
     gyrostat, maneuver = CASES["pitch"]
     first = _planned(gyrostat, maneuver, line).solution
@@ -314,27 +313,27 @@ def test_a_kept_program_remembers_nothing_of_other_turns():
 
 
 @pytest.mark.parametrize("name", ["pair", "triad", "orthogonal", "pyramid"])
-def test_an_uneven_guess_moves_the_trunk_no_further_in_the_end(name):
+def test_an_uneven_guess_ends_with_the_same_wheel_momentum(name):
     gyrostat = Gyrostat(FULL, np.asarray(Layout(LayoutName(name)).axes(0.6)), 1e-4, 2e-5)
     even = Phase(boundary_of(drop(30.0)), gyrostat).outline.motion(gyrostat, 12)
     uneven = even.uneven(gyrostat)
     change = uneven.states[4:] - even.states[4:]
     assert np.abs(change).max() > 0.01 * np.abs(even.states[4:]).max()
     np.testing.assert_allclose(gyrostat.axes @ change[:, [0, -1]], 0.0, rtol=0, atol=1e-9)
-    # Torques are what the driven inertia takes for the speeds.
-    gained = uneven.torques - even.torques
-    steps = gained.reshape(len(change), -1, 3).mean(axis=2) * even.lengths
+    # The torques accelerate the driven inertia to these speeds.
+    difference = uneven.torques - even.torques
+    steps = difference.reshape(len(change), -1, 3).mean(axis=2) * even.lengths
     np.testing.assert_allclose(steps.sum(axis=1), 1.2e-4 * change[:, -1], rtol=0, atol=1e-12)
 
 
-def test_where_four_wheels_find_no_plan_two_of_their_strength_make_it(monkeypatch):
-    """A double pair was refused a turn, and grown, that two lighter wheels made."""
+def test_four_wheels_without_a_plan_use_that_of_an_equivalent_pair(monkeypatch):
+    """A double pair was once enlarged for a turn that two lighter wheels could make."""
 
-    def lost(turns, *arguments):
+    def failing_solve(turns, *arguments):
         found = solve(turns, *arguments)
         return replace(found, solved=turns[0].gyrostat.axes.shape[1] < 4)
 
-    monkeypatch.setattr("ocs_design.sizing.trajectory.plans.solve", lost)
+    monkeypatch.setattr("ocs_design.sizing.trajectory.plans.solve", failing_solve)
     pair = body(np.radians(30.0), spin_inertia=1.4e-4, armature=1e-6)
     four = replace(pair, axes=np.tile(pair.axes, 2), spin_inertia=0.7e-4, armature=0.5e-6)
     weak = replace(
@@ -345,13 +344,12 @@ def test_where_four_wheels_find_no_plan_two_of_their_strength_make_it(monkeypatc
     turn = boundary_of(drop(20.0, 10.0))
     found, expected = gentlest(turn, four, weak), gentlest(turn, pair, EC_45_FLAT)
     assert not found.failure
-    flown = found.trajectory
-    assert attitude_error(turn, flown) == pytest.approx(attitude_error(turn, expected.trajectory))
-    np.testing.assert_array_equal(flown.wheel_speed, np.tile(expected.trajectory.wheel_speed, 2))
-    held = flown.rate @ four.inertia + four.spin_inertia * flown.wheel_speed @ four.axes.T
-    np.testing.assert_allclose(held, 0.0, atol=1e-6)
+    path = found.trajectory
+    assert attitude_error(turn, path) == pytest.approx(attitude_error(turn, expected.trajectory))
+    np.testing.assert_array_equal(path.wheel_speed, np.tile(expected.trajectory.wheel_speed, 2))
+    np.testing.assert_allclose(_momentum(four, path), 0.0, atol=1e-6)
     # h A^T w_dot + (h + a) W_dot = tau, over each step.
-    driven = four.spin_inertia * flown.rate @ four.axes
-    driven += (four.spin_inertia + four.armature) * flown.wheel_speed
-    given = flown.step_torque.mean(axis=1) * np.diff(flown.time)[:, None]
-    np.testing.assert_allclose(np.diff(driven, axis=0), given, atol=1e-6)
+    momentum = four.spin_inertia * path.rate @ four.axes
+    momentum += (four.spin_inertia + four.armature) * path.wheel_speed
+    impulse = path.step_torque.mean(axis=1) * np.diff(path.time)[:, None]
+    np.testing.assert_allclose(np.diff(momentum, axis=0), impulse, atol=1e-6)

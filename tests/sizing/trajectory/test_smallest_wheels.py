@@ -1,4 +1,4 @@
-"""The smallest spin inertia: closed form, the theory's figures, and a transcription of its kind."""
+"""The smallest spin inertia: closed form, the theory's figures, and another transcription."""
 
 import casadi as ca
 import numpy as np
@@ -38,7 +38,7 @@ def _closed_form(roll, pitch, incidence, duration=FALL):
 
 
 @pytest.mark.parametrize(
-    ("degrees", "maneuver", "costs"),
+    ("degrees", "maneuver", "excess"),
     [
         (0.0, drop(30.0), 2e-4),
         pytest.param(30.0, drop(30.0), 2e-4, marks=pytest.mark.exhaustive),
@@ -46,13 +46,13 @@ def _closed_form(roll, pitch, incidence, duration=FALL):
         pytest.param(0.0, BACK_FLIP, 3e-4, marks=pytest.mark.slow),
     ],
 )
-def test_about_pitch_it_is_the_closed_form(degrees, maneuver, costs):
-    """Which no plan can beat; the mesh costs 0.03 % at most."""
+def test_about_pitch_it_is_the_closed_form(degrees, maneuver, excess):
+    """No plan can be below it; the mesh adds at most 0.03 %."""
     incidence, turn = np.radians(degrees), boundary_of(maneuver)
     found = smallest_wheels(body(incidence, 1.2e-4, DIAGONAL), turn)
     best = _closed_form(0.0, np.degrees(abs(turn.angle)), incidence, turn.duration)
     assert found.solution.solved
-    assert 1.0 - 1e-7 < found.gyrostat.spin_inertia / best < 1.0 + costs
+    assert 1.0 - 1e-7 < found.gyrostat.spin_inertia / best < 1.0 + excess
 
 
 @pytest.mark.slow
@@ -65,17 +65,19 @@ def test_about_pitch_it_is_the_closed_form(degrees, maneuver, costs):
         pytest.param(20.0, 20.0, 39.1, True, 1.042e-4, marks=pytest.mark.exhaustive),
     ],
 )
-def test_it_beats_the_figures_of_torques_that_are_held_for_a_step(
+def test_it_is_below_the_figures_for_piecewise_constant_torques(
     pitch, roll, degrees, free, specified
 ):
-    """The theory's figures hold the torque for 40 steps and the body's inertia, wheels braked.
+    """The theory's figures are for 40 constant torques and the body's inertia with braked wheels.
 
-    The same program written here gives them back; a torque that may follow the voltage line needs
-    1 to 2 % less, at the same incidence.
+    The program below reproduces them; torques that follow the voltage line need 1 to 2 % less, at
+    the same incidence.
     """
     incidence = np.radians(degrees)
-    held = _held_for_a_step(np.radians([roll, pitch]), None if free else module_axes(incidence))
-    assert held == pytest.approx(specified, rel=1e-3)
+    constant = _with_constant_torques(
+        np.radians([roll, pitch]), None if free else module_axes(incidence)
+    )
+    assert constant == pytest.approx(specified, rel=1e-3)
     guess = body(incidence, 1.2e-4, DIAGONAL)
     found = smallest_wheels(guess, boundary_of(drop(pitch, roll)), free_incidence=free)
     assert found.solution.solved
@@ -84,10 +86,10 @@ def test_it_beats_the_figures_of_torques_that_are_held_for_a_step(
     assert found.violation < 1e-6
 
 
-def _held_for_a_step(tilt, axes, steps=40):
-    """Multiple shooting with one Runge-Kutta step per held torque; states: vertical, w, W.
+def _with_constant_torques(tilt, axes, steps=40):
+    """Least spin inertia by multiple shooting, one Runge-Kutta step per constant torque.
 
-    Without axes it is a pair at the best incidence.
+    States are the vertical, w and W. Without axes, for a pair at the best incidence.
     """
     wheels, free = (2, True) if axes is None else (axes.shape[1], False)
     v, w, W, tau = (
@@ -119,7 +121,7 @@ def _held_for_a_step(tilt, axes, steps=40):
     roll, pitch = tilt
     start = [-np.sin(pitch), np.sin(roll) * np.cos(pitch), np.cos(roll) * np.cos(pitch)]
     program.subject_to(states[:, 0] == np.append(start, np.zeros(3 + wheels)))
-    # Only pitch, for wheels that act about no other axis.
+    # Only pitch for wheels that act about no other axis.
     rates, tilts = ([3, 4], [0, 1]) if free or np.any(axes[0]) else ([4], [0])
     program.subject_to(states[tilts, -1] == 0)
     program.subject_to(states[rates, -1] == 0)
@@ -129,15 +131,15 @@ def _held_for_a_step(tilt, axes, steps=40):
     program.set_initial(angle, 0.6)
     share = np.linspace(0.0, 1.0, steps + 1)
     program.set_initial(states[:3, :], np.outer(start, 1 - share) + np.outer([0, 0, 1], share))
-    pushes = np.full(2, 0.3) if free else 0.3 * np.sign(axes.T @ [*tilt, 0.0])
-    program.set_initial(torques, np.outer(pushes, np.sign(0.5 - share[:-1])))
+    guess = np.full(2, 0.3) if free else 0.3 * np.sign(axes.T @ [*tilt, 0.0])
+    program.set_initial(torques, np.outer(guess, np.sign(0.5 - share[:-1])))
     program.minimize(size)
     program.solver("ipopt", {"print_time": False, "ipopt.print_level": 0, "ipopt.sb": "yes"})
     return float(program.solve().value(size)) * 1e-4
 
 
 @pytest.mark.slow
-def test_a_push_needs_what_holds_its_momentum_and_turns_back():
+def test_a_push_requires_more_than_its_momentum():
     found = smallest_wheels(body(np.radians(35.0), 1.2e-4, DIAGONAL), boundary_of(PUSH))
     assert found.solution.solved
     roll, pitch, _ = np.array(PUSH.torque) * PUSH.duration
@@ -168,18 +170,20 @@ SINGLE, TRIAD, ORTHOGONAL, PYRAMID = (
     ],
 )
 def test_one_program_sizes_any_layout_of_wheels(axes, pitch, roll, specified):
-    """The theory's figures again, for one, three and four wheels."""
-    assert _held_for_a_step(np.radians([roll, pitch]), axes) == pytest.approx(specified, rel=1e-3)
-    wanted = boundary_of(drop(pitch, roll))
-    found = smallest_wheels(Gyrostat(DIAGONAL, axes, 1.2e-4), wanted)
+    """The theory's figures for one, three and four wheels."""
+    assert _with_constant_torques(np.radians([roll, pitch]), axes) == pytest.approx(
+        specified, rel=1e-3
+    )
+    boundary = boundary_of(drop(pitch, roll))
+    found = smallest_wheels(Gyrostat(DIAGONAL, axes, 1.2e-4), boundary)
     assert 0.97 < found.gyrostat.spin_inertia / specified < 0.995
     assert not found.failure
-    assert attitude_error(wanted, found.trajectory) < 1e-6
+    assert attitude_error(boundary, found.trajectory) < 1e-6
 
 
 @pytest.mark.slow
 def test_a_single_wheel_flips_the_robot():
-    """The theory's figure, with torques that are held for a step, is within 1 %."""
+    """Within 1 % of the theory's figure for piecewise constant torques."""
     found = smallest_wheels(Gyrostat(DIAGONAL, SINGLE, 2e-4), boundary_of(BACK_FLIP))
     assert not found.failure
     assert 0.99 < found.gyrostat.spin_inertia / 2.95e-4 < 1.0
@@ -213,7 +217,7 @@ def test_wheels_about_the_vertical_turn_the_heading(axes, specified):
     ],
 )
 def test_two_wheels_turn_the_heading_by_a_loop_of_the_tilt(duration, specified):
-    """Without momentum a pair's trunk never turns about its own vertical, and yet ends turned."""
+    """Without momentum the trunk never rotates about its own vertical, but ends with a new yaw."""
     guess = Gyrostat(DIAGONAL, module_axes(np.radians(39.0)), 2e-4)
     up = np.array([0.0, 0.0, 1.0])
     yaw = Boundary("yaw", UPRIGHT, QUARTER, up, 0.0, duration, end="attitude")
