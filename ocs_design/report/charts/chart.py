@@ -14,18 +14,18 @@ from ocs_design.common.arrays import FloatArray
 _STEPS = (1.0, 2.0, 2.5, 5.0, 10.0)
 """Distances between ticks, times a power of ten."""
 
-_ANGLES = (15.0, 30.0, 45.0, 90.0, 180.0, 360.0)
+_ANGLE_STEPS = (15.0, 30.0, 45.0, 90.0, 180.0, 360.0)
 """Distances between ticks of degrees, used if the smallest is not too coarse."""
 
-_MOST_DECADES = 6
+_MOST_LOG_TICKS = 6
 
 _LARGEST_DRAWN = 1e100
 """Largest value that an axis must include: a diverged run may end with NaN or huge values."""
 
-_FLAT = 1e-6
+_ROUNDING = 1e-6
 """Spread relative to the largest value below which values count as equal: it is rounding."""
 
-_FAR = 1e3
+_CLIP_DISTANCE = 1e3
 """Distance beyond the ends at which values are clipped, in lengths of the axis."""
 
 MOST_POINTS = 320
@@ -52,10 +52,10 @@ class Axis:
         cls, label: str, unit: str, values: Iterable[float], *, room: float = 0.06
     ) -> "Axis":
         """Axis that spans all values that can be drawn, with room at both ends."""
-        found = np.array([value for value in values if abs(value) < _LARGEST_DRAWN])
-        low, high = (float(found.min()), float(found.max())) if found.size else (0.0, 1.0)
+        drawable = np.array([value for value in values if abs(value) < _LARGEST_DRAWN])
+        low, high = (float(drawable.min()), float(drawable.max())) if drawable.size else (0.0, 1.0)
         spread = high - low
-        span = spread if spread > _FLAT * abs(high) else abs(high) or 1.0
+        span = spread if spread > _ROUNDING * abs(high) else abs(high) or 1.0
         return cls(label, unit, low - room * span, high + room * span)
 
     @property
@@ -63,33 +63,35 @@ class Axis:
         """Label with the unit in brackets."""
         return f"{self.label} [{self.unit}]" if self.unit else self.label
 
-    def parts(self, values: FloatArray | float) -> FloatArray:
+    def fractions(self, values: FloatArray | float) -> FloatArray:
         """Positions along the axis, 0 at the low and 1 at the high end."""
         if self.log:
             low, high = log10(self.low), log10(self.high)
             positive = np.where(np.asarray(values) > 0.0, values, self.low * 1e-3)
             return np.asarray((np.log10(positive) - low) / (high - low))
-        parts = (np.asarray(values) - self.low) / (self.high - self.low)
-        return np.asarray(np.clip(parts, -_FAR, _FAR))
+        fractions = (np.asarray(values) - self.low) / (self.high - self.low)
+        return np.asarray(np.clip(fractions, -_CLIP_DISTANCE, _CLIP_DISTANCE))
 
-    def ticks(self, most: int = 7) -> list[float]:
+    def ticks(self, count: int = 7) -> list[float]:
         """Round values between the ends."""
         if self.log:
             first, last = ceil(log10(self.low) - 1e-9), floor(log10(self.high) + 1e-9)
-            stride = max(1, (last - first) // _MOST_DECADES)
+            stride = max(1, (last - first) // _MOST_LOG_TICKS)
             powers = [10.0**power for power in range(first, last + 1, stride)]
             if len(powers) > 2:
                 return powers
             decades = [10.0**power for power in range(first - 1, last + 1)]
-            finer = (digit * decade for decade in decades for digit in (1, 2, 5))
-            return [value for value in finer if self.low <= value <= self.high]
-        least = (self.high - self.low) / most
-        if self.unit == "deg" and least > _ANGLES[0] / 2.0:
-            whole = 360.0 * ceil(least / 360.0)
-            step = next((step for step in _ANGLES if step >= least), whole)
+            finer_ticks = (digit * decade for decade in decades for digit in (1, 2, 5))
+            return [value for value in finer_ticks if self.low <= value <= self.high]
+        smallest_step = (self.high - self.low) / count
+        if self.unit == "deg" and smallest_step > _ANGLE_STEPS[0] / 2.0:
+            full_turns = 360.0 * ceil(smallest_step / 360.0)
+            step = next((step for step in _ANGLE_STEPS if step >= smallest_step), full_turns)
         else:
-            power = 10.0 ** floor(log10(least))
-            step = next(step * power for step in _STEPS if step * power >= least * (1.0 - 1e-9))
+            power = 10.0 ** floor(log10(smallest_step))
+            step = next(
+                step * power for step in _STEPS if step * power >= smallest_step * (1.0 - 1e-9)
+            )
         first, last = ceil(self.low / step - 1e-9), floor(self.high / step + 1e-9)
         return [round(index * step, 12) for index in range(first, last + 1)]
 
@@ -98,14 +100,14 @@ def tick_text(value: float) -> str:
     """Text of a tick: a plain number if that is short, else with a power of ten."""
     if value == 0.0:
         return "0"
-    size = abs(value)
-    if 1e-3 <= size < 1e5:
-        text = f"{value:,.6g}" if size >= 1e4 else f"{value:.6g}"
+    magnitude = abs(value)
+    if 1e-3 <= magnitude < 1e5:
+        text = f"{value:,.6g}" if magnitude >= 1e4 else f"{value:.6g}"
         return text.replace("-", "\N{MINUS SIGN}").replace(",", "\N{THIN SPACE}")
     mantissa, _, exponent = f"{value:.1e}".partition("e")
     factor = "" if mantissa == "1.0" else f"{mantissa.removesuffix('.0')}·"
-    raised = str(int(exponent)).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
-    return f"{factor}10{raised}".replace("-", "\N{MINUS SIGN}")
+    superscript = str(int(exponent)).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+    return f"{factor}10{superscript}".replace("-", "\N{MINUS SIGN}")
 
 
 class Ink(StrEnum):
@@ -130,7 +132,7 @@ SERIES = (Ink.BLUE, Ink.VERMILION, Ink.GREEN, Ink.PURPLE, Ink.ORANGE, Ink.SKY)
 
 
 @dataclass(frozen=True, eq=False)
-class _Drawn:
+class _PointMark:
     """Points in the units of the axes; `name` goes into the legend."""
 
     x: FloatArray
@@ -140,7 +142,7 @@ class _Drawn:
 
 
 @dataclass(frozen=True, eq=False)
-class Curve(_Drawn):
+class Curve(_PointMark):
     """A curve, or several broken by NaN."""
 
     dashed: bool = False
@@ -148,12 +150,12 @@ class Curve(_Drawn):
 
 
 @dataclass(frozen=True, eq=False)
-class FilledArea(_Drawn):
+class FilledArea(_PointMark):
     """A closed outline, filled faintly."""
 
 
 @dataclass(frozen=True, eq=False)
-class Points(_Drawn):
+class Points(_PointMark):
     """Discs, or rings if `hollow`, with optional `labels` beside them."""
 
     hollow: bool = False
@@ -206,10 +208,10 @@ def thinned(x: FloatArray, y: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Line with fewer points and the same peaks: the minimum and maximum of each piece."""
     if len(x) <= MOST_POINTS:
         return x, y
-    pieces, size = MOST_POINTS // 2, len(x) // (MOST_POINTS // 2)
+    pieces, length = MOST_POINTS // 2, len(x) // (MOST_POINTS // 2)
     # The first pieces are longer by one, as in `array_split`.
-    longer = (size + 1) * (len(x) % pieces)
-    ends = (*_ends(y[:longer], size + 1), *(longer + end for end in _ends(y[longer:], size)))
+    longer = (length + 1) * (len(x) % pieces)
+    ends = (*_ends(y[:longer], length + 1), *(longer + end for end in _ends(y[longer:], length)))
     kept = np.unique(np.concatenate([[0], *ends, [len(x) - 1]]))
     return x[kept], y[kept]
 

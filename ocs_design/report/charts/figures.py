@@ -17,7 +17,9 @@ def scenario_charts(story: Story) -> Mapping[str, tuple[Chart, ...]]:
     scenarios = dict.fromkeys(flight.scenario for flight in story.flights)
     return {
         scenario: tuple(
-            time_charts(scenario, [each for each in story.flights if each.scenario == scenario])
+            time_charts(
+                scenario, [flight for flight in story.flights if flight.scenario == scenario]
+            )
         )
         for scenario in scenarios
     }

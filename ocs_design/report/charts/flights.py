@@ -18,10 +18,10 @@ from ocs_design.robot.stance import LANDING_TOLERANCE
 _HEIGHT, _HISTOGRAM = 236.0, 200.0
 """Heights of the charts [px]."""
 
-_SAMPLES = 121
+_SPEED_SAMPLES = 121
 """Speeds at which the edge of the drive's range is drawn."""
 
-_AXES = (("pitch", "y", Ink.BLUE), ("roll", "x", Ink.VERMILION))
+_TILT_AXES = (("pitch", "y", Ink.BLUE), ("roll", "x", Ink.VERMILION))
 
 
 def time_charts(scenario: str, flights: Sequence[RecordedFlight]) -> Iterator[Chart]:
@@ -31,10 +31,9 @@ def time_charts(scenario: str, flights: Sequence[RecordedFlight]) -> Iterator[Ch
     """
     tolerance = to_unit(LANDING_TOLERANCE, "deg")
     on_pivot = any(flight.on_pivot for flight in flights)
-    name_of_rule = f"allowed {'when due' if on_pivot else 'at touchdown'}"
+    rule_name = f"allowed {'when due' if on_pivot else 'at touchdown'}"
     allowed = [
-        Rule(side * tolerance, upright=False, ink=Ink.FAINT, name=name_of_rule)
-        for side in (-1.0, 1.0)
+        Rule(side * tolerance, upright=False, ink=Ink.FAINT, name=rule_name) for side in (-1.0, 1.0)
     ]
 
     def chart(
@@ -44,19 +43,19 @@ def time_charts(scenario: str, flights: Sequence[RecordedFlight]) -> Iterator[Ch
         axis: tuple[str, str],
         curves: Sequence[Curve | FilledArea],
         *,
-        of: Sequence[RecordedFlight] = flights,
+        of_flights: Sequence[RecordedFlight] = flights,
         rules: Sequence[Rule] = (),
         ends: Sequence[float] = (),
     ) -> Chart:
-        end = max(float(flight.time[-1]) for flight in of) or 1.0
-        reach = [(np.nanmin(curve.y), np.nanmax(curve.y), 0.0) for curve in curves]
+        end = max(float(flight.time[-1]) for flight in of_flights) or 1.0
+        extremes = [(np.nanmin(curve.y), np.nanmax(curve.y), 0.0) for curve in curves]
         return Chart(
             name=f"{kind}_{safe_name(scenario)}",
             title=f"{scenario}: {title}",
             description=description,
             x=Axis("time", "s", 0.0, end),
-            y=Axis.around(*axis, [*ends, *np.ravel(reach)]),
-            marks=(*curves, *rules, *_events(of)),
+            y=Axis.around(*axis, [*ends, *np.ravel(extremes)]),
+            marks=(*curves, *rules, *_events(of_flights)),
             height=_HEIGHT,
         )
 
@@ -66,7 +65,7 @@ def time_charts(scenario: str, flights: Sequence[RecordedFlight]) -> Iterator[Ch
         "Pitch and roll over time, solid with the device, dashed without it; rules "
         f"at {tolerance:.0f} degrees either side of level are the landing tolerance.",
         ("angle", "deg"),
-        _about_axes(flights, "{axis}_rad", "deg", thin=False),
+        _tilt_curves(flights, "{axis}_rad", "deg", thin=False),
         rules=allowed,
         ends=[-2.0 * tolerance, 2.0 * tolerance],
     )
@@ -75,7 +74,7 @@ def time_charts(scenario: str, flights: Sequence[RecordedFlight]) -> Iterator[Ch
         "rates of the trunk",
         "Pitch and roll rate over time, solid with the device, dashed without it.",
         ("rate", "deg/s"),
-        _about_axes(flights, "rate_{letter}_rad_s", "deg/s", thin=True),
+        _tilt_curves(flights, "rate_{letter}_rad_s", "deg/s", thin=True),
     )
     for flight in flights:
         if not flight.ocs:
@@ -85,11 +84,11 @@ def time_charts(scenario: str, flights: Sequence[RecordedFlight]) -> Iterator[Ch
             "speed of the wheels",
             "Speed of each wheel relative to the trunk over time.",
             ("wheel speed", "rpm"),
-            _of_wheels(flight, flight.wheel_speed, "rpm", "wheel", thin=False),
-            of=[flight],
+            _wheel_curves(flight, flight.wheel_speed, "rpm", "wheel", thin=False),
+            of_flights=[flight],
         )
         # Torque range of the first motor; none if its torque is not limited.
-        possible = []
+        torque_range = []
         lowest, highest = (
             flight.columns.get(f"wheel_torque_{end}_{flight.wheels[0]}_nm")
             for end in ("lowest", "highest")
@@ -97,19 +96,19 @@ def time_charts(scenario: str, flights: Sequence[RecordedFlight]) -> Iterator[Ch
         if lowest is not None and highest is not None:
             there_and_back = np.concatenate([flight.time, flight.time[::-1]])
             outline = np.concatenate([highest, lowest[::-1]])
-            possible = [FilledArea(there_and_back, outline, Ink.FAINT, "range of the motor")]
+            torque_range = [FilledArea(there_and_back, outline, Ink.FAINT, "range of the motor")]
         yield chart(
             "wheel_torque",
             "torque of the motors",
             "Torque of each motor on its wheel over time, within the shaded range that the first "
             "one can give at its speed.",
             ("torque", "N m"),
-            [*possible, *_of_wheels(flight, flight.wheel_torque, "N m", "motor", thin=True)],
-            of=[flight],
+            [*torque_range, *_wheel_curves(flight, flight.wheel_torque, "N m", "motor", thin=True)],
+            of_flights=[flight],
         )
 
 
-def _about_axes(
+def _tilt_curves(
     flights: Sequence[RecordedFlight], column: str, unit: str, *, thin: bool
 ) -> list[Curve]:
     """Curves of pitch and roll of each flight, dashed where it has no device."""
@@ -123,11 +122,11 @@ def _about_axes(
             thin=thin,
         )
         for flight in flights
-        for axis, letter, ink in _AXES
+        for axis, letter, ink in _TILT_AXES
     ]
 
 
-def _of_wheels(
+def _wheel_curves(
     flight: RecordedFlight, series: Callable[[str], FloatArray], unit: str, part: str, *, thin: bool
 ) -> list[Curve]:
     """Curve of each wheel or motor, every other one dashed."""
@@ -146,29 +145,31 @@ def _of_wheels(
 
 def _events(flights: Sequence[RecordedFlight]) -> list[Rule]:
     """Rules at the last lift-off, or push, and at the first touchdown of the flights."""
-    left = max((flight.lift_off or 0.0 for flight in flights), default=0.0)
-    down = [each.touchdown for each in flights if each.flies and each.touchdown is not None]
-    first = "lift-off" if any(flight.flies for flight in flights) else "push"
-    times = [(left, first)] if left > 0.0 else []
-    last = "upright by now" if any(flight.on_pivot for flight in flights) else "touchdown"
-    times += [(min(down), last)] if down else []
+    lift_off = max((flight.lift_off or 0.0 for flight in flights), default=0.0)
+    touchdowns = [
+        flight.touchdown for flight in flights if flight.flies and flight.touchdown is not None
+    ]
+    start_label = "lift-off" if any(flight.flies for flight in flights) else "push"
+    times = [(lift_off, start_label)] if lift_off > 0.0 else []
+    end_label = "upright by now" if any(flight.on_pivot for flight in flights) else "touchdown"
+    times += [(min(touchdowns), end_label)] if touchdowns else []
     return [Rule(time, upright=True, label=label, ink=Ink.FAINT) for time, label in times]
 
 
-def _highest(motor: Drive, speed: FloatArray, share: float) -> FloatArray:
+def _largest_torque(motor: Drive, speed: FloatArray, share: float) -> FloatArray:
     """Largest forward torque at the wheel at a speed, with a share of voltage and current [N m]."""
     if motor.stall_torque is None:
-        line = np.where(np.abs(speed) <= share * motor.no_load_speed, np.inf, 0.0)
+        torque = np.where(np.abs(speed) <= share * motor.no_load_speed, np.inf, 0.0)
     else:
-        line = motor.stall_torque * (share - speed / motor.no_load_speed)
+        torque = motor.stall_torque * (share - speed / motor.no_load_speed)
     limit = np.inf if motor.torque_limit is None else share * motor.torque_limit
-    return np.asarray(np.minimum(limit, np.maximum(line, 0.0)))
+    return np.asarray(np.minimum(limit, np.maximum(torque, 0.0)))
 
 
 def drive_charts(motor: Drive, flights: Sequence[RecordedFlight]) -> Iterator[Chart]:
     """Torque and speed in all four quadrants; none if no flight has the device."""
-    driven = [flight for flight in flights if flight.ocs]
-    if not driven:
+    with_device = [flight for flight in flights if flight.ocs]
+    if not with_device:
         return
     # The path of each wheel up to the instant of the verdict; the rest is not part of the maneuver.
     paths = [
@@ -179,42 +180,47 @@ def drive_charts(motor: Drive, flights: Sequence[RecordedFlight]) -> Iterator[Ch
             "" if index else flight.scenario,
             dashed=index > 0,
         )
-        for flight, ink in zip(driven, SERIES * 2, strict=False)
+        for flight, ink in zip(with_device, SERIES * 2, strict=False)
         for index, wheel in enumerate(flight.wheels)
     ]
-    reach = max(float(np.nanmax(np.abs(path.x))) for path in paths)
-    torque = max(float(np.nanmax(np.abs(path.y))) for path in paths)
-    widest = max(reach, in_unit(min(motor.no_load_speed, 3.0 * np.pi / 30.0 * reach), "rpm")) or 1.0
-    tallest = 1.15 * max(torque, motor.torque_limit or 0.0) or 1.0
-    fastest = np.inf if motor.speed_max is None else in_unit(motor.speed_max, "rpm")
-    top = min(widest, fastest)
+    top_path_speed = max(float(np.nanmax(np.abs(path.x))) for path in paths)
+    top_path_torque = max(float(np.nanmax(np.abs(path.y))) for path in paths)
+    no_load = in_unit(min(motor.no_load_speed, 3.0 * np.pi / 30.0 * top_path_speed), "rpm")
+    speed_half_range = max(top_path_speed, no_load) or 1.0
+    torque_half_range = 1.15 * max(top_path_torque, motor.torque_limit or 0.0) or 1.0
+    speed_max_rpm = np.inf if motor.speed_max is None else in_unit(motor.speed_max, "rpm")
+    outline_speed = min(speed_half_range, speed_max_rpm)
     marks: list[Mark] = []
     # Whole range of the drive, and the limit that the design may use.
-    speed_rpm = np.linspace(-top, top, _SAMPLES)
+    speed_rpm = np.linspace(-outline_speed, outline_speed, _SPEED_SAMPLES)
     speed = speed_rpm * np.pi / 30.0
-    limited = motor.stall_torque is not None or motor.torque_limit is not None
-    for share in (1.0, RESERVE) if limited else ():
-        high = np.minimum(_highest(motor, speed, share), 2.0 * tallest)
-        low = -np.minimum(_highest(motor, -speed, share), 2.0 * tallest)
+    is_limited = motor.stall_torque is not None or motor.torque_limit is not None
+    for share in (1.0, RESERVE) if is_limited else ():
+        high = np.minimum(_largest_torque(motor, speed, share), 2.0 * torque_half_range)
+        low = -np.minimum(_largest_torque(motor, -speed, share), 2.0 * torque_half_range)
         x = np.concatenate([speed_rpm, speed_rpm[::-1], speed_rpm[:1]])
         y = np.concatenate([high, low[::-1], high[:1]])
         if share == 1.0:
             marks.append(FilledArea(x, y, Ink.FAINT, "range of the drive"))
         else:
             marks.append(Curve(x, y, Ink.FAINT, f"{share:.0%} of it", dashed=True, thin=True))
-    if fastest <= 1.05 * widest:
-        marks.append(Rule(-fastest, upright=True, ink=Ink.PLAIN))
-        marks.append(Rule(fastest, upright=True, label="top speed", ink=Ink.PLAIN))
-    first, *others = (part_name("wheel", wheel) for wheel in driven[0].wheels)
-    text = f": solid {first}, dashed {others[0] if len(others) == 1 else 'others'}" * bool(others)
+    if speed_max_rpm <= 1.05 * speed_half_range:
+        marks.append(Rule(-speed_max_rpm, upright=True, ink=Ink.PLAIN))
+        marks.append(Rule(speed_max_rpm, upright=True, label="top speed", ink=Ink.PLAIN))
+    first, *other_wheels = (part_name("wheel", wheel) for wheel in with_device[0].wheels)
+    legend = ""
+    if other_wheels:
+        legend = (
+            f": solid {first}, dashed {other_wheels[0] if len(other_wheels) == 1 else 'others'}"
+        )
     yield Chart(
         name="torque_speed",
-        title=f"Torque and speed of a wheel{text}",
+        title=f"Torque and speed of a wheel{legend}",
         description="What the drive can give at each speed of the wheel, at full voltage and "
         f"current and at the {RESERVE:.0%} that the design may use, with the path of each maneuver "
         "up to where it is judged; solid for the first wheel, dashed for the others.",
-        x=Axis("wheel speed", "rpm", -1.05 * widest, 1.05 * widest),
-        y=Axis("torque on the wheel", "N m", -tallest, tallest),
+        x=Axis("wheel speed", "rpm", -1.05 * speed_half_range, 1.05 * speed_half_range),
+        y=Axis("torque on the wheel", "N m", -torque_half_range, torque_half_range),
         marks=(*marks, *paths),
         height=330.0,
     )
@@ -225,12 +231,18 @@ def distribution_charts(record: MonteCarloRecord, pivots: Collection[str] = ()) 
 
     `pivots` are the scenarios about a pivot, which have no touchdown.
     """
-    for each in record.scenarios:
-        judged = "when due" if each.scenario in pivots else "at touchdown"
+    for scenario in record.scenarios:
+        instant = "when due" if scenario.scenario in pivots else "at touchdown"
         spreads = (
-            ("off_level", f"off level {judged}", "deg", each.attitude_error, LANDING_TOLERANCE),
-            ("peak_speed", "highest wheel speed", "rpm", each.peak_wheel_speed, None),
-            ("peak_torque", "highest torque", "N m", each.peak_wheel_torque, None),
+            (
+                "off_level",
+                f"off level {instant}",
+                "deg",
+                scenario.attitude_error,
+                LANDING_TOLERANCE,
+            ),
+            ("peak_speed", "highest wheel speed", "rpm", scenario.peak_wheel_speed, None),
+            ("peak_torque", "highest torque", "N m", scenario.peak_wheel_torque, None),
         )
         for name, label, unit, spread, limit in spreads:
             if spread is None:
@@ -247,8 +259,8 @@ def distribution_charts(record: MonteCarloRecord, pivots: Collection[str] = ()) 
                 rules.append(Rule(allowed, upright=True, label="allowed", ink=Ink.VERMILION))
                 ends.append(allowed)
             yield Chart(
-                name=f"{name}_{safe_name(each.scenario)}",
-                title=f"{each.scenario}: {label}",
+                name=f"{name}_{safe_name(scenario.scenario)}",
+                title=f"{scenario.scenario}: {label}",
                 description=f"Histogram over all samples: {label}, with its median.",
                 x=Axis.around(label, unit, ends),
                 y=Axis("flights", "", 0.0, 1.1 * max(counts)),

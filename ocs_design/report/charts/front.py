@@ -58,8 +58,8 @@ def front_chart(front: Front) -> Chart:
         foot = np.full(len(without), y.low)
         marks.append(Points(_values(front, without), foot, Ink.PLAIN, "no device", hollow=True))
     if front.spans_own_value:
-        own = in_unit(front.own_value, front.unit)
-        marks.insert(0, Rule(own, upright=True, label="as specified", ink=Ink.FAINT))
+        own_value = in_unit(front.own_value, front.unit)
+        marks.insert(0, Rule(own_value, upright=True, label="as specified", ink=Ink.FAINT))
     return Chart(
         name="front",
         title=f"{front.robot}: lightest device",
@@ -74,10 +74,10 @@ def front_chart(front: Front) -> Chart:
 
 def reserve_charts(selection: SelectionRecord | None) -> Iterator[Chart]:
     """Mass for the same motor and material against the number of robots of which one may fail."""
-    kept = None if selection is None else selection.kept
-    if kept is None or not kept.curve:
+    reserve = None if selection is None else selection.kept
+    if reserve is None or not reserve.curve:
         return
-    levels, kilograms = np.array(kept.curve).T
+    levels, kilograms = np.array(reserve.curve).T
     robots, masses = 1.0 / (1.0 - levels), 1e3 * kilograms
     labels = tuple(f"{100.0 * level:g} %" for level in levels)
     yield Chart(
@@ -88,7 +88,9 @@ def reserve_charts(selection: SelectionRecord | None) -> Iterator[Chart]:
         x=Axis("robots of which one may fail", "", 1.5, 1500.0, log=True),
         y=Axis.around("mass of the device", "g", masses, room=0.15),
         marks=(
-            Rule(1.0 / (1.0 - kept.reliability), upright=True, label="as specified", ink=Ink.FAINT),
+            Rule(
+                1.0 / (1.0 - reserve.reliability), upright=True, label="as specified", ink=Ink.FAINT
+            ),
             Curve(robots, masses, Ink.BLUE),
             Points(robots, masses, Ink.BLUE, labels=labels),
         ),

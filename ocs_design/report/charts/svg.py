@@ -29,7 +29,7 @@ WIDTH = 440.0
 """Width of every chart [px]: legible without zooming on a telephone."""
 
 _LEFT, _RIGHT, _BOTTOM, _TITLE = 62.0, 22.0, 40.0, 22.0
-_LETTER = 6.8
+_LETTER_WIDTH = 6.8
 """Mean width of a letter [px], a high estimate for DejaVu Sans, the widest usual fallback font."""
 
 _COLORS = {
@@ -43,7 +43,7 @@ _COLORS = {
     Ink.FAINT: "#8a9099",
 }
 
-_SHAPES = (
+_SHAPE_STYLES = (
     ".chart{font-family:system-ui,'Helvetica Neue',Arial,sans-serif}"
     ".sheet{fill:#fff}.title{font-size:13px;font-weight:600;fill:#1a1d21}"
     ".tick,.note{font-size:11px;fill:#4a5058}.note{paint-order:stroke;stroke:#fff;stroke-width:3px}.axis{font-size:11.5px;fill:#30343a}"
@@ -52,25 +52,25 @@ _SHAPES = (
     ".area{fill-opacity:.14}.ring{fill:#fff;stroke-width:2}"
 )
 
-_SHEET = _SHAPES + "".join(
+_STYLE_SHEET = _SHAPE_STYLES + "".join(
     f".{ink}{{stroke:{color}}}.fill-{ink}{{fill:{color}}}" for ink, color in _COLORS.items()
 )
 """Style sheet of files, on white; pages have their own."""
 
-_MOST_ROW = 26
+_ROW_NAME_LENGTH = 26
 """Maximum number of letters of a row's name."""
 
-_ROW, _SAMPLE, _APART = 16.0, 20.0, 14.0
+_LEGEND_ROW, _SAMPLE_WIDTH, _ENTRY_GAP = 16.0, 20.0, 14.0
 """Height of a row of the legend, width of a sample, and gap between entries [px]."""
 
-_LEGEND_LETTER = 6.0
+_LEGEND_LETTER_WIDTH = 6.0
 """Mean width of a letter of the legend [px]."""
 
 
-_DOT, _GAP = 4.0, 7.0
+_DISC_RADIUS, _LABEL_DISTANCE = 4.0, 7.0
 """Radius of a disc, and distance from its middle to its label [px]."""
 
-_RISES = (0.0, -11.0, 11.0, -22.0, 22.0, -33.0, 33.0)
+_LABEL_SHIFTS = (0.0, -11.0, 11.0, -22.0, 22.0, -33.0, 33.0)
 """Vertical shifts by which a label avoids others, the smallest first [px]."""
 
 
@@ -82,10 +82,10 @@ class _Box(NamedTuple):
     right: float
     bottom: float
 
-    def meets(self, other: "_Box") -> bool:
+    def overlaps(self, other: "_Box") -> bool:
         """Whether they overlap."""
-        across = self.left < other.right and other.left < self.right
-        return across and self.top < other.bottom and other.top < self.bottom
+        overlap_in_x = self.left < other.right and other.left < self.right
+        return overlap_in_x and self.top < other.bottom and other.top < self.bottom
 
 
 def inline_svg(chart: Chart) -> str:
@@ -95,32 +95,32 @@ def inline_svg(chart: Chart) -> str:
 
 def svg_file(chart: Chart) -> bytes:
     """SVG file with its own style sheet, on white."""
-    return _Drawing(chart).text(f"<style>{_SHEET}</style>").encode()
+    return _Drawing(chart).text(f"<style>{_STYLE_SHEET}</style>").encode()
 
 
 class _Drawing:
     """Layout of one chart on its sheet, x to the right and y down."""
 
     def __init__(self, chart: Chart) -> None:
-        self._named = _named(chart.marks)
+        self._named = _legend_marks(chart.marks)
         rows = {row for _, _, row in _legend_places(self._named, WIDTH - _RIGHT)}
-        self._top = _TITLE + _ROW * len(rows) + 6.0
+        self._top = _TITLE + _LEGEND_ROW * len(rows) + 6.0
         longest = max(map(len, chart.rows), default=0)
-        self._left = max(_LEFT, _LETTER * min(longest, _MOST_ROW) + 14.0)
+        self._left = max(_LEFT, _LETTER_WIDTH * min(longest, _ROW_NAME_LENGTH) + 14.0)
         self._right, self._bottom = WIDTH - _RIGHT, chart.height - _BOTTOM
         if chart.equal:
-            wide, tall = self._right - self._left, self._bottom - self._top
-            spans = (chart.x.high - chart.x.low) / wide, (chart.y.high - chart.y.low) / tall
+            width, height = self._right - self._left, self._bottom - self._top
+            spans = (chart.x.high - chart.x.low) / width, (chart.y.high - chart.y.low) / height
             scale = max(spans)
             chart = replace(
-                chart, x=_stretched(chart.x, scale * wide), y=_stretched(chart.y, scale * tall)
+                chart, x=_with_span(chart.x, scale * width), y=_with_span(chart.y, scale * height)
             )
         self._chart = chart
-        self._taken = [
-            _Box(x - _DOT, y - _DOT, x + _DOT, y + _DOT)
+        self._occupied = [
+            _Box(x - _DISC_RADIUS, y - _DISC_RADIUS, x + _DISC_RADIUS, y + _DISC_RADIUS)
             for mark in chart.marks
             if isinstance(mark, Points)
-            for x, y in self._at(mark.x, mark.y).tolist()
+            for x, y in self._pixels(mark.x, mark.y).tolist()
         ]
         self._curves: list[FloatArray] = []
 
@@ -128,16 +128,14 @@ class _Drawing:
         """SVG text of the whole chart."""
         chart = self._chart
         legend = "".join(
-            f"{_sample(mark, x, _TITLE + _ROW * row + 6.0)}"
-            f'<text class="note" x="{x + _SAMPLE + 5.0:.1f}" y="{_TITLE + _ROW * row + 10.0:.1f}">'
-            f"{escape(mark.name)}</text>"
+            _legend_entry(mark, x, _TITLE + _LEGEND_ROW * row)
             for mark, x, row in _legend_places(self._named, self._right)
         )
-        middle, upright = (self._left + self._right) / 2.0, (self._top + self._bottom) / 2.0
-        titles = _word("axis", middle, chart.height - 8.0, chart.x.title, "middle")
+        middle_x, middle_y = (self._left + self._right) / 2.0, (self._top + self._bottom) / 2.0
+        titles = _text_element("axis", middle_x, chart.height - 8.0, chart.x.title, "middle")
         if not chart.rows:
-            beside = _word("axis", 0.0, 0.0, chart.y.title, "middle")
-            titles += f'<g transform="translate(12 {upright:g}) rotate(-90)">{beside}</g>'
+            y_title = _text_element("axis", 0.0, 0.0, chart.y.title, "middle")
+            titles += f'<g transform="translate(12 {middle_y:g}) rotate(-90)">{y_title}</g>'
         height = f"{chart.height:g}"
         frame = f'data-x="{chart.x.low:.6g} {chart.x.high:.6g} {self._left:g} {self._right:g}"'
         return (
@@ -158,42 +156,47 @@ class _Drawing:
             f"{''.join(map(self._label_of, chart.marks))}{titles}</svg>"
         )
 
-    def _at(self, x: FloatArray | float, y: FloatArray | float) -> FloatArray:
+    def _pixels(self, x: FloatArray | float, y: FloatArray | float) -> FloatArray:
         """Pixels of points, shape (n, 2), or of one."""
-        right, up = self._chart.x.parts(x), self._chart.y.parts(y)
-        across = self._left + right * (self._right - self._left)
-        return np.stack([across, self._bottom - up * (self._bottom - self._top)], axis=-1)
+        x_fraction, y_fraction = self._chart.x.fractions(x), self._chart.y.fractions(y)
+        pixels_x = self._left + x_fraction * (self._right - self._left)
+        return np.stack([pixels_x, self._bottom - y_fraction * (self._bottom - self._top)], axis=-1)
 
     def _grid(self) -> str:
-        chart, parts = self._chart, []
+        chart, elements = self._chart, []
         for value in chart.x.ticks():
-            x, _ = self._at(value, chart.y.low)
-            parts.append(_straight("grid", x, self._top, x, self._bottom))
-            parts.append(_word("tick", x, self._bottom + 14.0, tick_text(value), "middle"))
+            x, _ = self._pixels(value, chart.y.low)
+            elements.append(_line_element("grid", x, self._top, x, self._bottom))
+            elements.append(
+                _text_element("tick", x, self._bottom + 14.0, tick_text(value), "middle")
+            )
         if chart.rows:
             ticks = [
-                (float(place), name if len(name) <= _MOST_ROW else f"{name[: _MOST_ROW - 1]}…")
-                for place, name in enumerate(chart.rows)
+                (
+                    float(row),
+                    name if len(name) <= _ROW_NAME_LENGTH else f"{name[: _ROW_NAME_LENGTH - 1]}…",
+                )
+                for row, name in enumerate(chart.rows)
             ]
         else:
             ticks = [(value, tick_text(value)) for value in chart.y.ticks(5)]
         for value, text in ticks:
-            _, y = self._at(chart.x.low, value)
-            parts.append(_straight("grid", self._left, y, self._right, y))
-            parts.append(_word("tick", self._left - 6.0, y + 3.5, text, "end"))
-        return "".join(parts)
+            _, y = self._pixels(chart.x.low, value)
+            elements.append(_line_element("grid", self._left, y, self._right, y))
+            elements.append(_text_element("tick", self._left - 6.0, y + 3.5, text, "end"))
+        return "".join(elements)
 
     def _shape_of(self, mark: Mark) -> str:
-        look = _look(mark)
+        classes = _css_classes(mark)
         match mark:
             case Curve():
                 broken = np.isnan(mark.x) | np.isnan(mark.y)
                 pieces = np.split(np.arange(len(mark.x)), np.flatnonzero(broken))
-                wholes = [piece[~broken[piece]] for piece in pieces]
+                unbroken = [piece[~broken[piece]] for piece in pieces]
                 curves = [
-                    self._at(*thinned(mark.x[whole], mark.y[whole]))
-                    for whole in wholes
-                    if len(whole) > 1
+                    self._pixels(*thinned(mark.x[piece], mark.y[piece]))
+                    for piece in unbroken
+                    if len(piece) > 1
                 ]
                 for curve in curves:
                     # Points along the curve at most a pixel apart in x and y, shape (n, 2).
@@ -202,31 +205,33 @@ class _Drawing:
                     along = np.arange(nodes[-1] + 1)
                     traced = [np.interp(along, nodes, each) for each in curve.T]
                     self._curves.append(np.stack(traced, axis=-1))
-                paths = "".join(map(_path, curves))
-                return f'<path class="{look}" d="{paths}"/>' if paths else ""
+                paths = "".join(map(_path_data, curves))
+                return f'<path class="{classes}" d="{paths}"/>' if paths else ""
             case FilledArea():
-                path = _path(self._at(mark.x, mark.y), closed=True)
-                return f'<path class="{look}" d="{path}"/>'
+                path = _path_data(self._pixels(mark.x, mark.y), closed=True)
+                return f'<path class="{classes}" d="{path}"/>'
             case Points():
-                return "".join(_disc(look, x, y) for x, y in self._at(mark.x, mark.y).tolist())
+                return "".join(
+                    _disc_element(classes, x, y) for x, y in self._pixels(mark.x, mark.y).tolist()
+                )
             case Rule():
-                return _straight(look, *self._rule(mark))
+                return _line_element(classes, *self._rule(mark))
 
     def _label_of(self, mark: Mark) -> str:
         match mark:
             case Points(labels=labels) if labels:
-                places = self._at(mark.x, mark.y)
+                places = self._pixels(mark.x, mark.y)
                 words = zip(places, labels, strict=True)
                 return "".join(self._beside(x, y, text) for (x, y), text in words)
             case Rule(label=label, upright=True) if label:
                 # At the bottom, top or in between, right or left of it, clear of curves.
                 x, low, high = self._rule(mark)[0], self._bottom - 9.0, self._top + 9.0
-                heights = [low, high, *np.arange(low, high, _RISES[1]).tolist()]
+                heights = [low, high, *np.arange(low, high, _LABEL_SHIFTS[1]).tolist()]
                 free = (
                     (y, left)
                     for left, y in product((False, True), heights)
                     for box in [self._box(x, y, label, left=left)]
-                    if self._free(box) and box.left >= self._left
+                    if self._is_free(box) and box.left >= self._left
                 )
                 y, left = next(free, (low, False))
                 return self._beside(x, y, label, left=left)
@@ -237,18 +242,22 @@ class _Drawing:
 
         It overlaps no other label, and no curve if possible.
         """
-        boxes = [self._box(x, y + rise, text, left=left) for rise in _RISES]
+        boxes = [self._box(x, y + shift, text, left=left) for shift in _LABEL_SHIFTS]
         # The axis labels are below.
-        tried = [each for each in boxes if each.bottom <= self._bottom] or boxes
-        apart = [each for each in tried if not any(map(each.meets, self._taken))]
-        box = next(filter(self._free, apart), (apart or tried)[0])
-        self._taken.append(box)
-        far, anchor = (x - _GAP, "end") if box.left < x else (x + _GAP, "start")
-        return _word("note", far, box.top + 9.5, text, anchor)
+        inside = [candidate for candidate in boxes if candidate.bottom <= self._bottom] or boxes
+        clear = [
+            candidate for candidate in inside if not any(map(candidate.overlaps, self._occupied))
+        ]
+        box = next(filter(self._is_free, clear), (clear or inside)[0])
+        self._occupied.append(box)
+        anchor_x, anchor = (
+            (x - _LABEL_DISTANCE, "end") if box.left < x else (x + _LABEL_DISTANCE, "start")
+        )
+        return _text_element("note", anchor_x, box.top + 9.5, text, anchor)
 
-    def _free(self, box: _Box) -> bool:
+    def _is_free(self, box: _Box) -> bool:
         """Whether a box is clear of labels, discs and curves, all of which are already drawn."""
-        if any(map(box.meets, self._taken)):
+        if any(map(box.overlaps, self._occupied)):
             return False
         corner, opposite = box[:2], box[2:]
         inside = (((curve >= corner) & (curve <= opposite)).all(axis=1) for curve in self._curves)
@@ -256,50 +265,60 @@ class _Drawing:
 
     def _box(self, x: float, y: float, text: str, *, left: bool = False) -> _Box:
         """Box of a label beside a point; see `_beside`."""
-        reach = _LETTER * len(text)
-        near = x - _GAP - reach if left or x + _GAP + reach > WIDTH else x + _GAP
-        return _Box(near, y - 6.0, near + reach, y + 5.0)
+        width = _LETTER_WIDTH * len(text)
+        left_edge = (
+            x - _LABEL_DISTANCE - width
+            if left or x + _LABEL_DISTANCE + width > WIDTH
+            else x + _LABEL_DISTANCE
+        )
+        return _Box(left_edge, y - 6.0, left_edge + width, y + 5.0)
 
     def _rule(self, mark: Rule) -> tuple[float, float, float, float]:
         if mark.upright:
-            x, _ = self._at(mark.value, self._chart.y.low)
+            x, _ = self._pixels(mark.value, self._chart.y.low)
             return x, self._top, x, self._bottom
-        _, y = self._at(self._chart.x.low, mark.value)
+        _, y = self._pixels(self._chart.x.low, mark.value)
         return self._left, y, self._right, y
 
 
-def _named(marks: Sequence[Mark]) -> list[Mark]:
+def _legend_marks(marks: Sequence[Mark]) -> list[Mark]:
     """Marks for the legend: the first mark of each name."""
-    found: dict[str, Mark] = {}
+    first_by_name: dict[str, Mark] = {}
     for mark in marks:
         if mark.name:
-            found.setdefault(mark.name, mark)
-    return list(found.values())
+            first_by_name.setdefault(mark.name, mark)
+    return list(first_by_name.values())
 
 
-def _legend_places(named: Sequence[Mark], right: float) -> Iterator[tuple[Mark, float, int]]:
+def _legend_places(marks: Sequence[Mark], right: float) -> Iterator[tuple[Mark, float, int]]:
     """Each mark with its x [px] and its row."""
     x, row = 4.0, 0
-    for mark in named:
-        width = _SAMPLE + 6.0 + _LEGEND_LETTER * len(mark.name) + _APART
+    for mark in marks:
+        width = _SAMPLE_WIDTH + 6.0 + _LEGEND_LETTER_WIDTH * len(mark.name) + _ENTRY_GAP
         if x > 4.0 and x + width > right:
             x, row = 4.0, row + 1
         yield mark, x, row
         x += width
 
 
+def _legend_entry(mark: Mark, x: float, top: float) -> str:
+    """Sample of a mark and its name."""
+    name = f'x="{x + _SAMPLE_WIDTH + 5.0:.1f}" y="{top + 10.0:.1f}">{escape(mark.name)}'
+    return f'{_sample(mark, x, top + 6.0)}<text class="note" {name}</text>'
+
+
 def _sample(mark: Mark, x: float, y: float) -> str:
     """Sample of a mark for the legend."""
-    look = _look(mark)
+    classes = _css_classes(mark)
     if isinstance(mark, Points):
-        return _disc(look, x + _SAMPLE / 2.0, y)
+        return _disc_element(classes, x + _SAMPLE_WIDTH / 2.0, y)
     if isinstance(mark, FilledArea):
-        box = f'x="{x:.1f}" y="{y - 5.0:.1f}" width="{_SAMPLE:g}" height="10"'
-        return f'<rect class="{look}" {box}/>'
-    return f'<path class="{look}" d="M{x:.1f} {y:.1f}h{_SAMPLE:g}"/>'
+        box = f'x="{x:.1f}" y="{y - 5.0:.1f}" width="{_SAMPLE_WIDTH:g}" height="10"'
+        return f'<rect class="{classes}" {box}/>'
+    return f'<path class="{classes}" d="M{x:.1f} {y:.1f}h{_SAMPLE_WIDTH:g}"/>'
 
 
-def _look(mark: Mark) -> str:
+def _css_classes(mark: Mark) -> str:
     """Classes of a mark in the style sheet."""
     match mark:
         case Curve():
@@ -312,34 +331,33 @@ def _look(mark: Mark) -> str:
             return f"rule dashed {mark.ink}"
 
 
-def _stretched(axis: Axis, span: float) -> Axis:
-    middle = (axis.low + axis.high) / 2.0
-    return replace(axis, low=middle - span / 2.0, high=middle + span / 2.0)
+def _with_span(axis: Axis, span: float) -> Axis:
+    center = (axis.low + axis.high) / 2.0
+    return replace(axis, low=center - span / 2.0, high=center + span / 2.0)
 
 
-def _path(places: FloatArray, *, closed: bool = False) -> str:
-    rounded = places.round(1)
+def _path_data(pixels: FloatArray, *, closed: bool = False) -> str:
+    rounded = pixels.round(1)
     steps = np.diff(rounded, axis=0)
     # Points inside a horizontal section are dropped.
-    onwards = steps[1:, 0] * steps[:-1, 0] >= 0.0
-    level = (steps[1:, 1] == 0.0) & (steps[:-1, 1] == 0.0)
-    kept = rounded[np.concatenate([[True], ~(level & onwards), [True]])]
+    same_direction = steps[1:, 0] * steps[:-1, 0] >= 0.0
+    is_level = (steps[1:, 1] == 0.0) & (steps[:-1, 1] == 0.0)
+    kept = rounded[np.concatenate([[True], ~(is_level & same_direction), [True]])]
     corners = "L".join(f"{x:.1f} {y:.1f}" for x, y in kept.tolist())
     return f"M{corners}{'Z' if closed else ''}"
 
 
-def _straight(look: str, x1: float, y1: float, x2: float, y2: float) -> str:
-    return f'<path class="{look}" d="M{x1:.1f} {y1:.1f}L{x2:.1f} {y2:.1f}"/>'
+def _line_element(classes: str, x1: float, y1: float, x2: float, y2: float) -> str:
+    return f'<path class="{classes}" d="M{x1:.1f} {y1:.1f}L{x2:.1f} {y2:.1f}"/>'
 
 
-def _disc(look: str, x: float, y: float) -> str:
-    return f'<circle class="{look}" cx="{x:.1f}" cy="{y:.1f}" r="{_DOT:g}"/>'
+def _disc_element(classes: str, x: float, y: float) -> str:
+    return f'<circle class="{classes}" cx="{x:.1f}" cy="{y:.1f}" r="{_DISC_RADIUS:g}"/>'
 
 
-def _word(look: str, x: float, y: float, text: str, anchor: str) -> str:
-    return (
-        f'<text class="{look}" x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}">{escape(text)}</text>'
-    )
+def _text_element(classes: str, x: float, y: float, text: str, anchor: str) -> str:
+    place = f'x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}"'
+    return f'<text class="{classes}" {place}>{escape(text)}</text>'
 
 
 _FONTS = tuple(f"report/fonts/Roboto-{weight}.ttf" for weight in ("Regular", "Bold"))
@@ -363,8 +381,8 @@ def write_charts(charts: Sequence[Chart], folder: Path) -> tuple[str, ...]:
     write_svgs(charts, folder)
     try:
         for chart in charts:
-            picture = png_of(svg_file(chart).decode())
-            (folder / f"{chart.name}.png").write_bytes(picture)
+            png = png_of(svg_file(chart).decode())
+            (folder / f"{chart.name}.png").write_bytes(png)
     except MissingToolError as error:
         return (f"{error.message}: {error.hint}",)
     return ()

@@ -15,10 +15,10 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.device.bodies import PREFIX
 from ocs_design.report.bodies import ShownBody, Surface
 
-FINEST = 1.0 / 4096.0
+FINEST_CELL = 1.0 / 4096.0
 """Smallest cell in which points are merged, relative to the size of the robot."""
 
-DEVICE_GRAIN = 0.2
+DEVICE_CELL = 0.2
 """Size of the device's cells relative to the robot's."""
 
 _LEAST_GROWTH = 1.1
@@ -34,37 +34,39 @@ _FLAT = 0.05
 def decimated(bodies: Sequence[ShownBody], most_triangles: int) -> tuple[ShownBody, ...]:
     """The bodies with at most so many triangles, decimated with a common cell size."""
     points = [surface.vertices for body in bodies for surface in body.surfaces]
-    extent = max((float(np.ptp(each, axis=0).max()) for each in points), default=0.0)
+    extent = max((float(np.ptp(points, axis=0).max()) for points in points), default=0.0)
     if extent == 0.0:
         return tuple(bodies)
-    boxed = [
-        (_grain(body), _offsets(surface), np.ascontiguousarray(surface.faces.T))
+    grid_surfaces = [
+        (_relative_cell(body), _offsets(surface), np.ascontiguousarray(surface.faces.T))
         for body in bodies
         for surface in body.surfaces
     ]
-    cell = FINEST * extent
+    cell = FINEST_CELL * extent
 
-    def left() -> int:
+    def triangle_count() -> int:
         """Number of triangles whose corners lie in three different cells."""
         count = 0
-        for grain, places, faces in boxed:
-            cells = _cells(places, grain * cell)
-            count += len(np.unique(_keyed(*(cells[column] for column in faces))[1]))
+        for relative, offsets, faces in grid_surfaces:
+            cells = _cells(offsets, relative * cell)
+            count += len(np.unique(_face_keys(*(cells[column] for column in faces))[1]))
         return count
 
-    while (count := left()) > most_triangles:
+    while (count := triangle_count()) > most_triangles:
         # The number of cells is proportional to the area of a surface.
         cell *= max(_LEAST_GROWTH, float(np.sqrt(count / most_triangles)))
-    made = []
+    coarser = []
     for body in bodies:
-        found = (clustered(surface, _grain(body) * cell) for surface in body.surfaces)
-        made.append(replace(body, surfaces=tuple(each for each in found if len(each.faces))))
-    return tuple(made)
+        clusters = (clustered(surface, _relative_cell(body) * cell) for surface in body.surfaces)
+        coarser.append(
+            replace(body, surfaces=tuple(surface for surface in clusters if len(surface.faces)))
+        )
+    return tuple(coarser)
 
 
-def _grain(body: ShownBody) -> float:
+def _relative_cell(body: ShownBody) -> float:
     """Relative cell size of a body: finer for the device, on which the interest lies."""
-    return DEVICE_GRAIN if body.name.startswith(PREFIX) else 1.0
+    return DEVICE_CELL if body.name.startswith(PREFIX) else 1.0
 
 
 def _offsets(surface: Surface) -> list[FloatArray]:
@@ -76,46 +78,46 @@ def _cells(offsets: Sequence[FloatArray], cell: float) -> NDArray[np.int64]:
     """Cell number below 2^21 of each vertex."""
     x, y, z = (np.floor(column / cell).astype(np.int64) for column in offsets)
     number = (x * (int(y.max()) + 1) + y) * (int(z.max()) + 1) + z
-    return number if number.max() < 1 << _BITS else _numbered(number)
+    return number if number.max() < 1 << _BITS else _ranked(number)
 
 
 def clustered(surface: Surface, cell: float) -> Surface:
     """Surface with one vertex per cell [m], without the triangles that collapse."""
-    cluster = _numbered(_cells(_offsets(surface), cell))
+    cell_index = _ranked(_cells(_offsets(surface), cell))
     # Faces of three corners, each once.
-    moved = cluster[surface.faces]
-    kept, key = _keyed(*moved.T)
-    faces = moved[kept][np.unique(key, return_index=True)[1]]
+    face_cells = cell_index[surface.faces]
+    is_face, key = _face_keys(*face_cells.T)
+    faces = face_cells[is_face][np.unique(key, return_index=True)[1]]
     # Point of each cluster nearest to the planes of its triangles, at most a cell away.
-    count = int(cluster.max()) + 1
-    weight = np.bincount(cluster, minlength=count)[:, None]
-    middle = _summed(surface.vertices, cluster, count) / weight
-    # Sums of n n^T and n d over the triangles at each cluster, area-weighted, about `middle`.
+    count = int(cell_index.max()) + 1
+    weight = np.bincount(cell_index, minlength=count)[:, None]
+    center = _sums(surface.vertices, cell_index, count) / weight
+    # Sums of n n^T and n d over the triangles at each cluster, area-weighted, about `center`.
     corners = surface.vertices[surface.faces]
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     outer = np.einsum("ni,nj->nij", normal, normal).reshape(-1, 9)
     quadric, vector = np.zeros((count, 9)), np.zeros((count, 3))
-    for at in cluster[surface.faces.T]:
-        offset = np.einsum("ni,ni->n", normal, corners[:, 0] - middle[at])
-        quadric += _summed(outer, at, count)
-        vector += _summed(normal * offset[:, None], at, count)
+    for cells in face_cells.T:
+        offset = np.einsum("ni,ni->n", normal, corners[:, 0] - center[cells])
+        quadric += _sums(outer, cells, count)
+        vector += _sums(normal * offset[:, None], cells, count)
     values, axes = np.linalg.eigh(quadric.reshape(-1, 3, 3))
-    says = values > _FLAT * values[:, -1:]
-    inverse = np.divide(1.0, values, out=np.zeros_like(values), where=says)
+    is_determined = values > _FLAT * values[:, -1:]
+    inverse = np.divide(1.0, values, out=np.zeros_like(values), where=is_determined)
     step = np.einsum("nij,nj,nkj,nk->ni", axes, inverse, axes, vector)
-    far = np.linalg.norm(step, axis=1) > cell
-    step[far] = 0.0
-    vertices = np.asarray(middle + step)
+    too_far = np.linalg.norm(step, axis=1) > cell
+    step[too_far] = 0.0
+    vertices = np.asarray(center + step)
     used, renumbered = np.unique(faces, return_inverse=True)
     return Surface(vertices[used], renumbered.reshape(-1, 3), surface.color)
 
 
-def _numbered(values: NDArray[np.int64]) -> NDArray[np.int64]:
+def _ranked(values: NDArray[np.int64]) -> NDArray[np.int64]:
     """Index of each value among the sorted distinct values."""
     return np.asarray(np.unique(values, return_inverse=True)[1].ravel())
 
 
-def _keyed(
+def _face_keys(
     a: NDArray[np.int64], b: NDArray[np.int64], c: NDArray[np.int64]
 ) -> tuple[NDArray[np.bool_], NDArray[np.int64]]:
     """Mask of faces with three distinct corners, and a key for each by its corners in any order."""
@@ -125,7 +127,7 @@ def _keyed(
     return kept, (low << 2 * _BITS) | ((a + b + c - low - high) << _BITS) | high
 
 
-def _summed(values: FloatArray, at: NDArray[np.intp], count: int) -> FloatArray:
-    """Sums of the rows of `values` by their index `at`, shape (count, columns)."""
-    columns = [np.bincount(at, column, minlength=count) for column in values.T]
+def _sums(values: FloatArray, index: NDArray[np.intp], count: int) -> FloatArray:
+    """Sums of the rows of `values` by their index, shape (count, columns)."""
+    columns = [np.bincount(index, column, minlength=count) for column in values.T]
     return np.stack(columns, axis=1)

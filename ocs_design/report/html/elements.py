@@ -17,7 +17,7 @@ _ESCAPED = {
 }
 """Characters that are unsafe in a script element, and their JSON escapes."""
 
-_LONG = 12
+_LONG_TEXT = 12
 """Length of a cell's text above which a phone would show one word per line."""
 
 _POWER = re.compile(r"\b(kg m|kg mm|m/s|rad/s)\^?([23])\b")
@@ -31,7 +31,7 @@ class Markup(str):
 
 def element(name: str, *content: str, **attributes: str | bool) -> Markup:
     """Element with its content; `class_` and `for_` stand for the reserved words."""
-    inside = "".join(map(_safe, content))
+    inside = "".join(map(_escaped, content))
     return Markup(f"<{name}{_attributes(attributes)}>{inside}</{name}>")
 
 
@@ -42,7 +42,7 @@ def void(name: str, **attributes: str | bool) -> Markup:
 
 def joined(parts: Iterable[str]) -> Markup:
     """Concatenated parts."""
-    return Markup("".join(map(_safe, parts)))
+    return Markup("".join(map(_escaped, parts)))
 
 
 def note(*content: str) -> Markup:
@@ -56,49 +56,54 @@ def facts(rows: Iterable[tuple[str, str]]) -> Markup:
     return element("dl", *pairs)
 
 
-def items(texts: Iterable[str], *, look: str = "") -> Markup:
+def items(texts: Iterable[str], *, css_class: str = "") -> Markup:
     """List; empty markup if it has no items."""
-    found = [element("li", text) for text in texts]
-    return element("ul", *found, class_=look) if found else Markup("")
+    entries = [element("li", text) for text in texts]
+    return element("ul", *entries, class_=css_class) if entries else Markup("")
 
 
 def table(caption: str, content: CellTable) -> Markup:
     """Table with its caption; units are in brackets."""
-    heads, looks = [], []
+    headings, classes = [], []
     for index, column in enumerate(content.columns):
         name = column.name.replace("\n", " ").strip()
         head = f"{name} [{column.unit.strip()}]" if column.unit else name
         texts = (plain(row[index]) for row in content.rows)
         # Long texts keep some width on a narrow screen.
-        long = column.words and max(map(len, texts), default=0) > _LONG
-        looks.append("word long" if long else "word" if column.words else "number")
-        heads.append(element("th", head, scope="col", class_="word" if column.words else "number"))
+        is_long = column.words and max(map(len, texts), default=0) > _LONG_TEXT
+        classes.append("word long" if is_long else "word" if column.words else "number")
+        headings.append(
+            element("th", head, scope="col", class_="word" if column.words else "number")
+        )
     body = []
     for row in content.rows:
-        shown = (
+        contents = (
             element("span", cell.text, class_=f"mark {cell.tone}")
             if isinstance(cell, Toned)
             else tied(cell)
             for cell in row
         )
         row_cells = (
-            element("td", cell, class_=look) for cell, look in zip(shown, looks, strict=True)
+            element("td", cell, class_=css_class)
+            for cell, css_class in zip(contents, classes, strict=True)
         )
         body.append(element("tr", *row_cells))
-    whole = element(
+    table_element = element(
         "table",
         element("caption", caption),
-        element("thead", element("tr", *heads)),
+        element("thead", element("tr", *headings)),
         element("tbody", *body),
     )
     # Wide tables scroll on their own on a narrow screen, also by keyboard.
-    return element("div", whole, class_="scroll", tabindex="0", role="region", aria_label=caption)
+    return element(
+        "div", table_element, class_="scroll", tabindex="0", role="region", aria_label=caption
+    )
 
 
 def section(name: str, title: str, *content: str) -> Markup:
     """Section of the page with an anchor for the table of contents."""
-    head = element("h2", title, id=f"{name}-title")
-    return element("section", head, *content, id=name, aria_labelledby=f"{name}-title")
+    heading = element("h2", title, id=f"{name}-title")
+    return element("section", heading, *content, id=name, aria_labelledby=f"{name}-title")
 
 
 def details(summary: str, *content: str) -> Markup:
@@ -108,14 +113,14 @@ def details(summary: str, *content: str) -> Markup:
 
 def figures(charts: Iterable[Chart], *, flight: str = "") -> Markup:
     """Charts, side by side if there is room; `flight` is the number of their maneuver, if any."""
-    shown = (element("figure", Markup(inline_svg(chart))) for chart in charts)
-    return element("div", *shown, class_="charts", data_flight=flight)
+    elements = (element("figure", Markup(inline_svg(chart))) for chart in charts)
+    return element("div", *elements, class_="charts", data_flight=flight)
 
 
 def data(name: str, text: str) -> Markup:
     """JSON element for scripts and other programs, escaped so that it cannot end the element."""
-    for letter, code in _ESCAPED.items():
-        text = text.replace(letter, code)
+    for character, escaped in _ESCAPED.items():
+        text = text.replace(character, escaped)
     return Markup(f'<script type="application/json" id="{name}">{text}</script>')
 
 
@@ -129,7 +134,7 @@ def _attributes(attributes: dict[str, str | bool]) -> str:
     )
 
 
-def _safe(content: str) -> str:
+def _escaped(content: str) -> str:
     """Markup unchanged, other text escaped, with superscripts in its units."""
     if isinstance(content, Markup):
         return content

@@ -24,55 +24,57 @@ _WIDTH = "420"
 """Width of a picture [px]."""
 
 
-def as_html(found: OcsDesign | Front | Validated, folder: Path | None = None) -> str:
+def as_html(result: OcsDesign | Front | Validated, folder: Path | None = None) -> str:
     """Result as HTML without style sheets, scripts or external resources.
 
     A design with its folder shows a picture of the robot, else wheel axes and inertia.
     """
-    if isinstance(found, OcsDesign):
-        runs = verdict_table(found)
-        mass = f"{grams(found.ocs.mass_total)}, {share_of_robot(found)}"
-        title = f"{device_title(found)} for {found.robot.name}, {mass}"
-        glb = None if folder is None else folder / f"robot/{safe_name(found.robot.name)}_ocs.glb"
+    if isinstance(result, OcsDesign):
+        verdicts = verdict_table(result)
+        mass = f"{grams(result.ocs.mass_total)}, {share_of_robot(result)}"
+        title = f"{device_title(result)} for {result.robot.name}, {mass}"
+        glb = None if folder is None else folder / f"robot/{safe_name(result.robot.name)}_ocs.glb"
         if glb is None or not glb.is_file():
-            shown = _image("svg+xml", svg_file(ellipsoid_chart(found)), "wheel axes and inertia")
+            picture = _image("svg+xml", svg_file(ellipsoid_chart(result)), "wheel axes and inertia")
         else:
-            picture = png_bytes(still_picture(read_bodies(glb.read_bytes())))
-            shown = _image("png", picture, f"{found.robot.name} with its device")
+            png = png_bytes(still_picture(read_bodies(glb.read_bytes())))
+            picture = _image("png", png, f"{result.robot.name} with its device")
         return element(
             "div",
-            _head(title, headline(found)),
+            _title_paragraph(title, headline(result)),
             element(
                 "div",
-                shown,
-                table("Device", CellTable(columns("<", "<"), first_facts(found))),
+                picture,
+                table("Device", CellTable(columns("<", "<"), first_facts(result))),
                 style="display: flex; gap: 1em; align-items: center",
             ),
-            table(f"Flights: {flights_title(found.validation)}", runs) if runs.rows else Markup(""),
+            table(f"Flights: {flights_title(result.validation)}", verdicts)
+            if verdicts.rows
+            else Markup(""),
         )
-    if isinstance(found, Front):
-        chart = front_chart(found)
+    if isinstance(result, Front):
+        chart = front_chart(result)
         rows = tuple(
-            (format_quantity(point.value, found.unit), "-", point.reason)
+            (format_quantity(point.value, result.unit), "-", point.reason)
             if point.device is None
             else (
-                format_quantity(point.value, found.unit),
+                format_quantity(point.value, result.unit),
                 grams(point.device.mass),
                 f"{point.device.motor}, {point.device.gear}, {point.device.material}",
             )
-            for point in found.points
+            for point in result.points
         )
         return element(
             "div",
             _image("svg+xml", svg_file(chart), chart.title),
-            table("Lightest devices", CellTable(columns(found.label, "mass", "<drive"), rows)),
+            table("Lightest devices", CellTable(columns(result.label, "mass", "<drive"), rows)),
         )
-    parts, flown = [_head(found.robot, headline(found))], found.monte_carlo
-    if flown is not None:
-        parts.append(table(campaign_title(flown), success_table(flown)))
-        if flown.certificate is not None:
-            parts.append(element("p", certificate_line(flown.certificate)))
-    reasons = (f"{run.scenario}: {run.reason}" for run in found.validation if run.ocs)
+    parts, campaign = [_title_paragraph(result.robot, headline(result))], result.monte_carlo
+    if campaign is not None:
+        parts.append(table(campaign_title(campaign), success_table(campaign)))
+        if campaign.certificate is not None:
+            parts.append(element("p", certificate_line(campaign.certificate)))
+    reasons = (f"{run.scenario}: {run.reason}" for run in result.validation if run.ocs)
     return element("div", *parts, items(reasons))
 
 
@@ -81,6 +83,6 @@ def _image(kind: str, content: bytes, name: str) -> Markup:
     return void("img", src=source, alt=name, width=_WIDTH, style="background: white")
 
 
-def _head(title: str, line: Headline) -> Markup:
+def _title_paragraph(title: str, line: Headline) -> Markup:
     main_finding = (void("br"), line.main_finding) if line.main_finding else ()
     return element("p", element("strong", title), void("br"), line.text, *main_finding)

@@ -27,7 +27,7 @@ from ocs_design.sizing.margins import HOOP_STRESS
 MOST_TRIANGLES = 30_000
 """Triangles of the robot: a few hundred kilobytes, and smooth without a graphics card."""
 
-_PARTS = {
+_CONTENTS = {
     "robot": "Robot and device",
     "sizes": "Sizes and margins",
     "limits": "Active limits",
@@ -79,12 +79,12 @@ def title_of(design: OcsDesign) -> str:
 
 def _body(story: Story) -> Iterator[Markup]:
     design = story.design
-    scenarios = tuple(dict.fromkeys(each.scenario for each in story.flights if each.poses))
+    scenarios = tuple(dict.fromkeys(flight.scenario for flight in story.flights if flight.poses))
     bodies = decimated(story.bodies, MOST_TRIANGLES)
     links = (
-        element("a", name, href=f"#{part}")
-        for part, name in _PARTS.items()
-        if part != "samples" or story.monte_carlo is not None
+        element("a", name, href=f"#{anchor}")
+        for anchor, name in _CONTENTS.items()
+        if anchor != "samples" or story.monte_carlo is not None
     )
     line = headline(design)
     yield element("a", "Skip to the content", href="#robot", class_="skip")
@@ -101,9 +101,9 @@ def _body(story: Story) -> Iterator[Markup]:
             ),
             element("span", line.main_finding) if line.main_finding else "",
             *(
-                element("span", each)
-                for each in hand_turn_remarks(design)
-                if each != line.main_finding
+                element("span", remark)
+                for remark in hand_turn_remarks(design)
+                if remark != line.main_finding
             ),
             class_=f"verdict {line.tone}",
         ),
@@ -135,12 +135,12 @@ def _tiles(design: OcsDesign) -> Markup:
     if ocs.motor.gear != DIRECT.name:
         drive += f", {ocs.motor.gear}"
     # As in the table of margins if present, else at the design's speed.
-    stress = next((each for each in design.margins if each.name == HOOP_STRESS), None)
+    stress = next((margin for margin in design.margins if margin.name == HOOP_STRESS), None)
     if stress is not None and stress.margin is not None:
-        bears = f"stress margin {stress.margin:.2f} {stress.note}"
+        stress_note = f"stress margin {stress.margin:.2f} {stress.note}"
     else:
         margin = wheel.stress_margin
-        bears = "stress not checked" if margin is None else f"stress margin {margin:.2f}"
+        stress_note = "stress not checked" if margin is None else f"stress margin {margin:.2f}"
     tiles = (
         ("Total mass", grams(ocs.mass_total), share_of_robot(design)),
         ("Incidence α*", degrees(ocs.incidence), ocs.incidence_criterion)
@@ -149,17 +149,17 @@ def _tiles(design: OcsDesign) -> Markup:
         ("Motor", ocs.motor.full_name, drive),
         ("Rim R / r / h", f"{lengths} mm", wheel.material),
         ("Spin inertia", inertia(ocs.spin_inertia), "of each wheel"),
-        ("Wheel speed, by design", rpm(design.requirement.wheel_speed_max), bears),
+        ("Wheel speed, by design", rpm(design.requirement.wheel_speed_max), stress_note),
     )
-    looks = (("span", "name"), ("strong", "value"), ("span", "note"))
+    classes = (("span", "name"), ("strong", "value"), ("span", "note"))
     return element(
         "ul",
         *(
             element(
                 "li",
                 *(
-                    element(kind, text, class_=look)
-                    for (kind, look), text in zip(looks, tile, strict=True)
+                    element(kind, text, class_=css_class)
+                    for (kind, css_class), text in zip(classes, tile, strict=True)
                 ),
             )
             for tile in tiles

@@ -62,7 +62,8 @@ def robot_section(story: Story, view: Markup) -> Markup:
     design = story.design
     points = design.buildable.open
     # Warnings about the robot's file are in the section on provenance.
-    minded = [each for each in warnings.all_warnings(design) if each not in design.robot.warnings]
+    of_robot = design.robot.warnings
+    device_warnings = [text for text in warnings.all_warnings(design) if text not in of_robot]
     return section(
         "robot",
         "Robot and device",
@@ -74,7 +75,7 @@ def robot_section(story: Story, view: Markup) -> Markup:
             class_="halves",
         ),
         table("What keeps it from being built", limits.open_points(design)) if points else "",
-        items((*minded, *warnings.reach_notes(design.ocs)), look="warnings"),
+        items((*device_warnings, *warnings.reach_notes(design.ocs)), css_class="warnings"),
     )
 
 
@@ -103,7 +104,7 @@ def sizes_section(design: OcsDesign) -> Markup:
         note(inertia_note),
         table("Margins", limits.margin_table(margins)),
         note(limits.MARGIN_NOTE),
-        items(limits.margin_notes(margins), look="note"),
+        items(limits.margin_notes(margins), css_class="note"),
     )
 
 
@@ -111,8 +112,8 @@ def limits_section(story: Story) -> Markup:
     """Active limits, and the mass that moving each of them saves."""
     design = story.design
     names, meaning = limits.active_limits(design)
-    owed = limits.driving_maneuver_text(design)
-    otherwise = limits.alternatives_table(design)
+    driving = limits.driving_maneuver_text(design)
+    alternatives = limits.alternatives_table(design)
     drive = []
     if design.selection is not None:
         drive.append(
@@ -123,21 +124,21 @@ def limits_section(story: Story) -> Markup:
             )
         )
         if design.selection.kept is not None:
-            kept = design.selection.kept
+            reserve = design.selection.kept
             drive += [
-                table("What is uncertain, and what it costs", limits.reserve_table(kept)),
+                table("What is uncertain, and what it costs", limits.reserve_table(reserve)),
                 figures(reserve_charts(design.selection)),
-                note(limits.reserve_note(kept, design.ocs.mass_total)),
+                note(limits.reserve_note(reserve, design.ocs.mass_total)),
             ]
     return section(
         "limits",
         "Active limits, and what moving them saves",
         element("p", "The mass is set by: ", element("strong", names), ". ", meaning),
-        element("p", f"Driven by {owed}.") if owed else "",
+        element("p", f"Driven by {driving}.") if driving else "",
         table("Each limit moved alone", limits.saving_table(design)),
         note(limits.saving_notes(design)),
         *drive,
-        table("Lighter alternatives", otherwise) if otherwise.rows else "",
+        table("Lighter alternatives", alternatives) if alternatives.rows else "",
         note(limits.useless_changes_note(design)),
         table(f"Trade-offs to save {grams(design.lighter.by)}", limits.lighter_table(design))
         if design.lighter is not None
@@ -167,22 +168,22 @@ def angles_section(story: Story) -> Markup:
 
 def drive_section(story: Story) -> Markup:
     """Torque and speed of the wheels, and how the drive was chosen."""
-    chosen, asked = story.design.selection, story.design.requirement.maneuvers
+    choice, maneuvers = story.design.selection, story.design.requirement.maneuvers
     parts = [figures(drive_charts(story.design.ocs.motor, story.flights))]
-    if chosen is None:
+    if choice is None:
         return section("drive", "Drive", *parts)
-    drives = selection.best_drives(chosen.ranking)
+    drives = selection.best_drives(choice.ranking)
     parts += [
-        element("p", f"Chosen from {selection.choice_title(chosen)}."),
-        table("Requirements on the drive", selection.task_table(chosen)),
-        note(selection.task_note(chosen, asked)),
+        element("p", f"Chosen from {selection.choice_title(choice)}."),
+        table("Requirements on the drive", selection.task_table(choice)),
+        note(selection.task_note(choice, maneuvers)),
         table("The lightest drives", selection.drive_table(drives)),
     ]
-    co_design = selection.co_design_facts(chosen)
+    co_design = selection.co_design_facts(choice)
     if co_design:
         parts.append(element("h3", "Co-design: all dimensions together with the maneuvers, in 3-D"))
         parts.append(facts(co_design))
-    reasons = selection.rejection_details(chosen)
+    reasons = selection.rejection_details(choice)
     if reasons:
         ruled_out = f"{counted(len(reasons), 'motor')} ruled out, and why"
         parts.append(details(ruled_out, items(reasons)))
@@ -203,11 +204,11 @@ def maneuvers_section(
     for name in names:
         runs = [run for run in story.design.validation if run.scenario == name]
         number = str(scenarios.index(name)) if name in scenarios else ""
-        again = element("button", "Show it in the view", type="button", data_replay=number)
+        button = element("button", "Show it in the view", type="button", data_replay=number)
         parts.append(
             element(
                 "article",
-                element("h3", name, " ", again if number else ""),
+                element("h3", name, " ", button if number else ""),
                 table(f"{name}: outcome", flights.flight_table(runs, one_scenario=True)),
                 *(note(flights.run_sentence(run)) for run in runs),
                 figures(charts[name], flight=number) if charts.get(name) else "",
@@ -294,8 +295,8 @@ def assembly_section(story: Story) -> Markup:
 def record_section(story: Story) -> Markup:
     """Assumptions, warnings, sources, versions and hashes: what a reviewer asks for."""
     design = story.design
-    assumed = items(design.requirement.assumptions)
-    read = items(design.robot.warnings, look="warnings")
+    assumptions = items(design.requirement.assumptions)
+    robot_warnings = items(design.robot.warnings, css_class="warnings")
     hashes = CellTable(columns("<file", "<SHA-256"), tuple(design.files.items()))
     lines = (element("span", name) for name in ("Designed by", "Reviewed by", "Date"))
     motor, wheel = design.ocs.motor, design.ocs.flywheel
@@ -303,8 +304,8 @@ def record_section(story: Story) -> Markup:
     gear = known_gears(None).get(motor.gear) if motor.gear != DIRECT.name else None
     if gear is not None:
         sources.append(("gear", f"{gear.name}: {gear.source}"))
-    used = [wheel.material] + ([] if wheel.web is None else [wheel.web.material])
-    for name in dict.fromkeys(used):
+    material_names = [wheel.material] + ([] if wheel.web is None else [wheel.web.material])
+    for name in dict.fromkeys(material_names):
         material = materials().get(name)
         if material is not None:
             sources.append(("material", f"{name}: {material.source}"))
@@ -327,11 +328,12 @@ def record_section(story: Story) -> Markup:
         "record",
         "Assumptions, sources and provenance",
         element("h3", "Assumed, because nothing else was specified"),
-        assumed or element("p", "Nothing: everything was specified."),
+        assumptions or element("p", "Nothing: everything was specified."),
         details(
             "Distributions that samples are drawn from", facts(distribution_facts(design.reality))
         ),
-        *((element("h3", "Warnings about the robot's file"), read) if read else ()),
+        element("h3", "Warnings about the robot's file") if robot_warnings else "",
+        robot_warnings,
         element("h3", "Sources"),
         facts(sources),
         element("h3", "Provenance"),

@@ -54,15 +54,15 @@ def view_data(story: Story, bodies: Sequence[ShownBody], scenarios: Sequence[str
 Record = dict[str, Any]
 """Value that becomes a JSON object."""
 
-_LARGEST = 32767
+_INT16_MAX = 32767
 """Largest signed 16-bit number, for components of quaternions."""
 
-_MOST_UINT16 = 65535
+_UINT16_MAX = 65535
 
-_FINE = 1e4
+_POSITION_SCALE = 1e4
 """Positions are rounded to a tenth of a millimetre, which compresses well."""
 
-_BESIDE = 1.25
+_SPACING = 1.25
 """Distance between two robots shown side by side, relative to the width of one."""
 
 
@@ -75,10 +75,10 @@ class Blob:
     def add(self, values: NDArray[Any], kind: str) -> Record:
         """Append an array as little-endian `f4`, `i2`, `u2` or `u4`; returns its position."""
         content = np.ascontiguousarray(values, dtype=f"<{kind}").tobytes()
-        place = {"at": len(self._content), "kind": kind, "length": int(values.size)}
+        position = {"at": len(self._content), "kind": kind, "length": int(values.size)}
         # A typed array must start at a multiple of its element size.
         self._content += content + b"\0" * (-len(content) % 4)
-        return place
+        return position
 
     def text(self) -> str:
         """All arrays, compressed by zlib, in base64."""
@@ -99,7 +99,7 @@ def encoded_scene(
     radius = _radius(low, high)
     device = _box([body for body in bodies if body.name.startswith(PREFIX)] or bodies)
     names = [body.name for body in bodies]
-    wheels, shown = flywheels_among(names), []
+    wheels, records = flywheels_among(names), []
     for body in bodies:
         surfaces = []
         for surface in body.surfaces:
@@ -107,17 +107,17 @@ def encoded_scene(
             low_corner, size = points.min(axis=0), np.ptp(points, axis=0)
             # Coordinates as fractions of the surface's box, 0..65535.
             offsets = points - low_corner
-            parts = np.divide(offsets, size, out=np.zeros_like(points), where=size > 0.0)
-            kind = "u2" if len(points) <= _MOST_UINT16 else "u4"
+            fractions = np.divide(offsets, size, out=np.zeros_like(points), where=size > 0.0)
+            kind = "u2" if len(points) <= _UINT16_MAX else "u4"
             record = {
                 "color": list(surface.color),
                 "low": low_corner.tolist(),
                 "size": size.tolist(),
-                "vertices": blob.add(np.round(_MOST_UINT16 * parts), "u2"),
+                "vertices": blob.add(np.round(_UINT16_MAX * fractions), "u2"),
                 "faces": blob.add(surface.faces, kind),
             }
             surfaces.append(record)
-        shown.append(
+        records.append(
             {
                 "name": body.name,
                 "device": body.name.startswith(PREFIX),
@@ -128,14 +128,14 @@ def encoded_scene(
             }
         )
     return {
-        "bodies": shown,
+        "bodies": records,
         "trunk": 0,
         "middle": ((low + high) / 2.0).tolist(),
         "ground": float(low[2]),
         "reach": radius,
         "device": {"middle": np.mean(device, axis=0).tolist(), "reach": _radius(*device)},
         "tile": float(10.0 ** np.round(np.log10(radius / 2.0))),
-        "apart": float(_BESIDE * (high - low)[1]),
+        "apart": float(_SPACING * (high - low)[1]),
         "scenarios": list(scenarios),
         "flights": [
             _flight(flight, flight.poses, names, blob)
@@ -146,15 +146,15 @@ def encoded_scene(
 
 
 def _flight(flight: RecordedFlight, poses: Poses, names: Sequence[str], blob: Blob) -> Record:
-    places = [poses.bodies.index(name) for name in names]
+    columns = [poses.bodies.index(name) for name in names]
     tilt = [flight.columns[f"{axis}_rad"] for axis in ("pitch", "roll")]
     at_frames = [np.interp(poses.time, flight.time, np.degrees(angle)) for angle in tilt]
     # Without the wheels' own rotation, which is many turns from one pose to the next.
     attitude = poses.attitude.copy()
     for wheel, name in enumerate(flywheels_among(poses.bodies)):
         body = poses.bodies.index(name)
-        back = from_axis_angle(np.array([0.0, 0.0, 1.0]), -poses.wheel_angle[:, wheel])
-        attitude[:, body] = hamilton(attitude[:, body], back)
+        backwards = from_axis_angle(np.array([0.0, 0.0, 1.0]), -poses.wheel_angle[:, wheel])
+        attitude[:, body] = hamilton(attitude[:, body], backwards)
     return {
         "scenario": flight.scenario,
         "ocs": flight.ocs,
@@ -162,8 +162,10 @@ def _flight(flight: RecordedFlight, poses: Poses, names: Sequence[str], blob: Bl
         "floor": not flight.on_pivot,
         "frames": len(poses.time),
         "time": blob.add(poses.time, "f4"),
-        "position": blob.add(np.round(_FINE * poses.position[:, places]) / _FINE, "f4"),
-        "attitude": blob.add(np.round(_LARGEST * attitude[:, places]), "i2"),
+        "position": blob.add(
+            np.round(_POSITION_SCALE * poses.position[:, columns]) / _POSITION_SCALE, "f4"
+        ),
+        "attitude": blob.add(np.round(_INT16_MAX * attitude[:, columns]), "i2"),
         "wheels": blob.add(poses.wheel_angle, "f4"),
         "tilt": blob.add(np.stack(at_frames, axis=1), "f4"),
     }

@@ -104,12 +104,12 @@ def _print_plot(console: Console, front: Front) -> None:
     values = np.array([point.value for point in front.points])
     masses = np.array([point.device.mass if point.device else np.nan for point in front.points])
     across, up = Axis.around("", "", values, room=0.0), Axis.around("", "", masses, room=0.05)
-    plot = braille(across.parts(values), up.parts(masses), width, PLOT_HEIGHT)
+    plot = braille(across.fractions(values), up.fractions(masses), width, PLOT_HEIGHT)
     marked = [(point.value, NO_DEVICE_MARK) for point in front.points if point.device is None]
     if front.spans_own_value:
         marked.append((front.own_value, OWN_VALUE_MARK))
     # Characters that contain the dots at these values.
-    places = across.parts(np.array([value for value, _ in marked])) * (2 * width - 1)
+    places = across.fractions(np.array([value for value, _ in marked])) * (2 * width - 1)
     columns_of = (np.rint(places).astype(np.int64) // 2).tolist()
     marks = {column: mark for column, (_, mark) in zip(columns_of, marked, strict=True)}
     ends = (_value(front, across.low), _value(front, across.high))

@@ -19,7 +19,7 @@ from ocs_design.report.charts.chart import Curve, FilledArea, Ink, Points, Rule
 from ocs_design.report.charts.figures import all_charts
 from ocs_design.report.charts.flights import distribution_charts, drive_charts
 from ocs_design.report.charts.front import reserve_charts
-from ocs_design.report.charts.momentum import bound_charts, posture_chart, taken
+from ocs_design.report.charts.momentum import bound_charts, maneuver_momenta, posture_chart
 from ocs_design.report.charts.svg import inline_svg, write_svgs
 from ocs_design.report.html.sections import monte_carlo_section
 from ocs_design.report.limits import reserve_note
@@ -29,15 +29,15 @@ RPM = 30.0 / np.pi
 
 @pytest.mark.slow
 def test_the_momentum_is_that_of_both_wheels_up_to_touchdown():
-    (momentum,) = taken(story())
+    (momentum,) = maneuver_momenta(story())
     alpha, spin = design().ocs.incidence, design().ocs.spin_inertia
     assert momentum.largest(0) == pytest.approx(spin * np.sin(alpha) * 100.0, rel=1e-4)
     assert momentum.largest(1) == pytest.approx(spin * np.cos(alpha) * 500.0, rel=1e-4)
 
 
 def test_the_momentum_of_a_device_with_a_motor_needs_flights():
-    assert taken(replace(story(), flights=())) == ()
-    assert taken(replace(story(motor="none"), flights=()))
+    assert maneuver_momenta(replace(story(), flights=())) == ()
+    assert maneuver_momenta(replace(story(motor="none"), flights=()))
 
 
 def test_the_point_of_a_device_lies_on_its_bound():
@@ -109,7 +109,7 @@ def test_postures_are_rows_from_the_top():
     ]
     chart = posture_chart(design(), lines)
     assert chart.rows == ("stand", "zero")
-    assert chart.y.parts(np.array([0.0]))[0] > chart.y.parts(np.array([1.0]))[0]
+    assert chart.y.fractions(np.array([0.0]))[0] > chart.y.fractions(np.array([1.0]))[0]
 
 
 @pytest.mark.parametrize("motor", ["none", "EC 45 flat 70 W 411812"])

@@ -211,7 +211,7 @@ def test_angles_have_ticks_at_usual_angles():
 
 def test_a_logarithmic_axis_has_equal_ratios_at_equal_distances():
     axis = Axis("I", "kg m2", 1e-6, 1e-2, log=True)
-    np.testing.assert_allclose(axis.parts(np.array([1e-6, 1e-4, 1e-2])), [0.0, 0.5, 1.0])
+    np.testing.assert_allclose(axis.fractions(np.array([1e-6, 1e-4, 1e-2])), [0.0, 0.5, 1.0])
     np.testing.assert_allclose(axis.ticks(), [1e-6, 1e-5, 1e-4, 1e-3, 1e-2])
     # A narrow one has ticks between the powers.
     np.testing.assert_allclose(Axis("I", "", 1.1e-5, 8e-5, log=True).ticks(), [2e-5, 5e-5])
@@ -240,7 +240,7 @@ def test_extreme_values_do_not_stretch_an_axis(extreme):
     axis = Axis.around("tilt", "deg", [0.0, extreme, 10.0, -extreme])
     assert (axis.low, axis.high) == pytest.approx((-0.6, 10.6))
     assert axis.ticks()[-1] == 10.0
-    parts = axis.parts(np.array([extreme, 5.0]))
+    parts = axis.fractions(np.array([extreme, 5.0]))
     assert np.isnan(parts[0]) or abs(parts[0]) <= 1e3
     assert parts[1] == pytest.approx(0.5)
 
