@@ -16,7 +16,7 @@ from ocs_design.actuation.drive import DriveLine
 from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.requirement.turns import TurnTo
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
-from ocs_design.sizing.trajectory.plans import gentlest
+from ocs_design.sizing.trajectory.plans import least_power_turn
 
 INERTIA = np.diag([0.030, 0.0535, 0.068])
 LINE = DriveLine(1.4566, 650.4, 1.0, np.inf, 300.0)
@@ -36,9 +36,9 @@ def main() -> None:
         for factor in FACTORS:
             turn = TurnTo(name="turn", pitch=np.pi / 6.0, duration=0.385 * factor, jump_height=9.0)
             asked = turn.boundary(0.3)
-            gentlest(asked, plant, LINE)  # warm
+            least_power_turn(asked, plant, LINE)  # warm
             start = time.process_time()
-            planned = gentlest(asked, plant, LINE)
+            planned = least_power_turn(asked, plant, LINE)
             seconds = time.process_time() - start
             times[not planned.failure].append(seconds)
             told = planned.failure or "planned"

@@ -61,7 +61,7 @@ def attitude_error(boundary, path):
 
 def end_rate(gyrostat, path):
     """Final rate about the axes that the wheels control [rad/s]."""
-    return np.linalg.norm(gyrostat.turns_about @ path.rate[-1])
+    return np.linalg.norm(gyrostat.controlled_axes @ path.rate[-1])
 
 
 @dataclass(frozen=True, eq=False)

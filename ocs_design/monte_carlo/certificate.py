@@ -160,7 +160,7 @@ def lesson(test: SequentialTest, campaign: Campaign, outcomes: Outcomes) -> Less
     part, cause = max(zip(shares.tolist(), (outcomes.names[i] for i in varied), strict=True))
     factor = float(min(max(reached / LANDING_TOLERANCE, LEAST), LARGEST))
     ending = f"the reserve is raised by a factor of {factor:.2f}"
-    if not campaign.flights[number].world.body.reach[axis]:
+    if not campaign.flights[number].world.body.controlled[axis]:
         factor, ending = 1.0, f"no wheel, however large, turns the robot in {names[axis]}"
     elif cause.startswith("attitude_bias"):
         # The law levels the trunk by its sensor, so wheels cannot correct the sensor's bias.

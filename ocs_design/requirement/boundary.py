@@ -73,12 +73,13 @@ class Freedom(NamedTuple):
 
     Attributes:
         inertia: about that point, in B [kg m^2], shape (3, 3).
-        pull: weight times the lever from the pivot, m g l in B [N m], shape (3,); zero in the air.
+        gravity_moment: weight times the lever from the pivot, m g l in B [N m], shape (3,); zero in
+            the air.
         edge: unit vector in B, the only axis about which it turns, shape (3,); None: any axis.
     """
 
     inertia: FloatArray
-    pull: FloatArray
+    gravity_moment: FloatArray
     edge: FloatArray | None
 
 

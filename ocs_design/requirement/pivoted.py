@@ -145,7 +145,7 @@ class Pivoted(Maneuver):
         axis = self.tilt / angle if angle > 0.0 else Y
         if angle == 0.0 and self.initial_rate.any():
             axis = self.initial_rate / float(np.linalg.norm(self.initial_rate))
-        upright = quaternions.upright(self.pull)
+        upright = quaternions.upright(self.gravity_moment)
         attitude = quaternions.product(quaternions.from_axis_angle(axis, angle), upright)
         return Boundary(
             name=self.name,
@@ -169,7 +169,7 @@ class Pivoted(Maneuver):
     def freedom(self, body: MassProperties) -> Freedom:
         """Freedom to turn about the pivot, under gravity."""
         own = self.on(body)
-        return Freedom(own.inertia, own.pull, own.axis)
+        return Freedom(own.inertia, own.gravity_moment, own.axis)
 
     @property
     def momentum_of_body(self) -> FloatArray | None:
@@ -233,7 +233,7 @@ class Pivoted(Maneuver):
         return TiltInertia(inertia.diagonal + further, inertia.product - mass * x * y)
 
     @property
-    def pull(self) -> FloatArray:
+    def gravity_moment(self) -> FloatArray:
         """Weight times lever, m g l in B [N m], shape (3,)."""
         return np.asarray(self._stands.mass * self.gravity * self.lever)
 
@@ -267,7 +267,7 @@ class Pivoted(Maneuver):
         The stiffness K is that of the linear pendulum with the energy of the true one at the tilt:
         `K theta^2 / 2 = m g l (1 - cos theta)`.
         """
-        weight, rate = float(np.linalg.norm(self.pull)), self.struck
+        weight, rate = float(np.linalg.norm(self.gravity_moment)), self.struck
         about = self.axis
         if about is None:
             most = float(np.linalg.eigvalsh(self.inertia)[-1])
@@ -282,7 +282,7 @@ class Pivoted(Maneuver):
     def quickness(self) -> float:
         """Rate at which a small tilt grows, sqrt(m g l / I) [1/s]."""
         _, inertia, _, _, _ = self._pendulum
-        return sqrt(float(np.linalg.norm(self.pull)) / inertia)
+        return sqrt(float(np.linalg.norm(self.gravity_moment)) / inertia)
 
     def _swing(self) -> tuple[FloatArray, Swing]:
         """Axis about which the wheels first speed up, its roll and pitch parts, and the swing."""

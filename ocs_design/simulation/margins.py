@@ -74,9 +74,9 @@ def _motions(
             continue
         motion = SampledMotion.along(reference.trajectory)
         yield name, motion
-        if reference.spun:
+        if reference.braked_speed:
             # All wheels run at up to this speed before the brake stops them in an instant.
-            wheels = np.full((2, motion.wheel_speed.shape[1]), reference.spun)
+            wheels = np.full((2, motion.wheel_speed.shape[1]), reference.braked_speed)
             still = np.zeros((2, 3))
             yield name, SampledMotion(np.array([0.0, 1e-3]), wheels, 0.0 * wheels, still, still)
     for run in runs:
@@ -110,10 +110,10 @@ def _brake_margins(
     fit = rim_fit(device)
     for maneuver in resolved.requirement.maneuvers:
         plan = plans.get(maneuver.name)
-        if plan is None or not plan.spun:
+        if plan is None or not plan.braked_speed:
             continue
-        deceleration = plan.spun / maneuver.stop
-        where = f"from {rpm(plan.spun)} in {1e3 * maneuver.stop:.2g} ms"
+        deceleration = plan.braked_speed / maneuver.stop
+        where = f"from {rpm(plan.braked_speed)} in {1e3 * maneuver.stop:.2g} ms"
         wheel = device.flywheel.spin_inertia * deceleration
         rotor = SERVICE * (abs(drive.rotor_inertia) + drive.armature) * deceleration
         rows = [

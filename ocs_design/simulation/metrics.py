@@ -101,7 +101,7 @@ def measure(recording: Recording, index: int, world: World) -> Metrics | None:
     smallest = np.linalg.eigvalsh(body.actuated_inertia)[:2]
     # Only wheels with a component about z can stop the trunk about the vertical.
     turning = np.hypot(*series.rate[last, :2])
-    if body.reach[2]:
+    if body.controlled[2]:
         turning = np.hypot(turning, series.rate[last, 2])
     return Metrics(
         lift_off_time=float(series.time[first]) if lift_off >= 0 else None,

@@ -130,7 +130,12 @@ class WorldBuilder:
         body = Gyrostat(total.inertia, device.axes, wheel.spin_inertia, device.motor.armature)
         if pivoted is not None:
             maneuver = pivoted = pivoted.on(total)
-            body = replace(body, inertia=pivoted.inertia, pull=pivoted.pull, edge=pivoted.axis)
+            body = replace(
+                body,
+                inertia=pivoted.inertia,
+                gravity_moment=pivoted.gravity_moment,
+                edge=pivoted.axis,
+            )
         start = launch(maneuver, standing, self._options.drop_profile)
         if pivoted is not None and trajectory is None:
             # Without a plan, or without wheels, there is nothing to spin up and brake.

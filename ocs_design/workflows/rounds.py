@@ -263,7 +263,7 @@ def size_for_turns(placed: Placed, steps: Steps, *, strict: bool) -> Placed:
         estimates = dict(placed.estimates)
         turns = {each.name: each for each in asked if each.estimated}
         for name, reference in references_of(placed, list(turns.values())).items():
-            factor = reference.lacking(turns[name].end)
+            factor = reference.missing_demand(turns[name].end)
             if factor is not None:
                 estimates[name] = factor * estimates.get(name, 1.0)
         if estimates == placed.estimates:

@@ -17,7 +17,7 @@ from ocs_design.requirement.resolving import read_specified_robot, resolve
 from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.design import design_device
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
-from ocs_design.sizing.trajectory.plans import drive_line_of, gentlest
+from ocs_design.sizing.trajectory.plans import drive_line_of, least_power_turn
 from ocs_design.workflows.pareto import read_task
 
 ROOT = Path(__file__).parents[2]
@@ -129,8 +129,10 @@ def test_rex_hopper_as_built_catches_itself_from_16_degrees(axis, hopping):
     for degrees, catches in ((16.0, True), (17.0, False)):
         start = {"roll": 0.0, "pitch": 0.0, axis: np.radians(degrees)}
         catch = replace(specified.maneuvers[0], pivot=(0.0, 0.0, 0.0), **start).on(body)
-        built = Gyrostat(catch.inertia, device.axes, 6.60959e-3, 0.0, catch.pull, catch.axis)
-        planned = gentlest(catch.boundary(0.0), built, drive_line_of(device))
+        built = Gyrostat(
+            catch.inertia, device.axes, 6.60959e-3, 0.0, catch.gravity_moment, catch.axis
+        )
+        planned = least_power_turn(catch.boundary(0.0), built, drive_line_of(device))
         assert (not planned.failure) == catches
 
 

@@ -84,7 +84,7 @@ def test_the_worst_of_plan_and_flight_sets_a_margin():
 
 
 def test_margins_include_the_wheel_speed_before_braking():
-    margins = recorded(plans={"drop": replace(planned(10.0), spun=1234.0)})
+    margins = recorded(plans={"drop": replace(planned(10.0), braked_speed=1234.0)})
     assert margins["wheel speed"].demand == 1234.0
     assert (
         margins["stored energy"].demand
@@ -115,7 +115,7 @@ def braked_margins(sizing):
     up = StandUp(name="up", **edge, pitch=0.5, duration=1.0, actuation="brake")
     up = up.on(sizing.sized.total)
     requirement = replace(task.resolved.requirement, maneuvers=(up,))
-    plans = {"up": replace(planned(100.0), spun=400.0)}
+    plans = {"up": replace(planned(100.0), braked_speed=400.0)}
     margins = record_margins(replace(task.resolved, requirement=requirement), sizing, (), plans)
     return up, {margin.name: margin for margin in margins}
 

@@ -65,7 +65,7 @@ def test_a_brake_stands_a_robot_up_whose_motors_cannot():
     heavy = replace(driven_device(), flywheel=HEAVY)
     plans, (run, without) = _flown(heavy, BRAKED)
     assert "the wheels are stopped from" in plans["braked"].note
-    assert plans["braked"].spun > run.metrics.peak_wheel_speed
+    assert plans["braked"].braked_speed > run.metrics.peak_wheel_speed
     assert run.passed, run.reason
     assert not without.passed
     by_motor = replace(BRAKED, name="motor", actuation="motor")
@@ -84,8 +84,8 @@ def test_a_brake_cannot_stop_wheels_faster_than_the_motors_spin_them():
         refused.note,
     )
     needed, reached = (float(speed.replace(",", "")) for speed in match.groups())
-    assert needed == pytest.approx(refused.spun * 30.0 / np.pi, rel=0.01)
-    assert reached / needed == pytest.approx(refused.part, rel=0.01)
+    assert needed == pytest.approx(refused.braked_speed * 30.0 / np.pi, rel=0.01)
+    assert reached / needed == pytest.approx(refused.tilt_fraction, rel=0.01)
     assert reached == 6211.0
 
 
@@ -100,9 +100,9 @@ def test_energy_about_the_pivot_is_conserved_without_drives(maneuver):
     kinetic = 0.5 * np.einsum("ki,ij,kj->k", rate, on_device.inertia, rate)
     w, x, y, z = recording.attitude[:, 0].T
     up = np.stack([2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z])
-    energy = kinetic + on_device.pull @ up
-    scale = np.linalg.norm(on_device.pull)
-    assert np.ptp(on_device.pull @ up) > 1.5 * scale
+    energy = kinetic + on_device.gravity_moment @ up
+    scale = np.linalg.norm(on_device.gravity_moment)
+    assert np.ptp(on_device.gravity_moment @ up) > 1.5 * scale
     np.testing.assert_allclose(energy, energy[0], rtol=0, atol=1e-5 * scale)
 
 
@@ -111,4 +111,6 @@ def test_the_model_has_the_inertia_of_the_plan():
     world = WorldBuilder(ROBOT, device).flight(ON_POINT, Wheels.ACTIVE)
     planned = gyrostat_of(ROBOT.mass_properties, device, ON_POINT)
     np.testing.assert_allclose(world.body.inertia, planned.inertia, rtol=1e-9, atol=1e-12)
-    np.testing.assert_allclose(world.body.pull, planned.pull, rtol=1e-9, atol=1e-12)
+    np.testing.assert_allclose(
+        world.body.gravity_moment, planned.gravity_moment, rtol=1e-9, atol=1e-12
+    )

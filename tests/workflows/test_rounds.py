@@ -29,7 +29,7 @@ class Reference:
     def __init__(self, factor):
         self.factor = factor
 
-    def lacking(self, _end):
+    def missing_demand(self, _end):
         return self.factor
 
 

@@ -34,10 +34,10 @@ PASSES = (16, 48)
 _WHEELS, _RADII = np.linspace(0.85, 1.15, 21), np.linspace(0.85, 1.15, 21)
 """Spin inertias and outer radii that are tabulated, relative to the selected ones."""
 
-_FEWEST = 4
+_SPLINE_POINTS_MIN = 4
 """Least number of points of a cubic spline."""
 
-_NEAREST = np.radians(1.0)
+_ANGLE_MARGIN = np.radians(1.0)
 """Distance of a free incidence to 0 and to a right angle, where an axis is out of reach [rad]."""
 
 
@@ -82,7 +82,7 @@ def co_design(problem: SelectionProblem, selected: Candidate) -> CoDesign:
     grid does not confirm its result, the selection stands and the note says why.
     """
     mass = float(selected.mass)
-    stands = CoDesign(
+    rejected = CoDesign(
         adopted=False,
         note="the selection stands: the spin inertia is specified",
         device=selected,
@@ -93,62 +93,62 @@ def co_design(problem: SelectionProblem, selected: Candidate) -> CoDesign:
         flights=(),
     )
     if problem.requirement.spin_inertia is not None:
-        return stands
+        return rejected
     if any(each.on_pivot for each in problem.requirement.maneuvers):
-        return replace(stands, note="the selection stands: a robot on a pivot is not co-designed")
+        return replace(rejected, note="the selection stands: a robot on a pivot is not co-designed")
     device = FreeDevice.of(problem, selected)
     if device is None:
         note = "the selection stands: the envelope leaves the wheels no choice"
-        return replace(stands, note=note)
+        return replace(rejected, note=note)
     turns = list(device.turns())
-    solution = solve(turns, _usable(problem, selected), PASSES, device.dimensions())
-    found = device.at(*solution.dimensions.tolist())
+    solution = solve(turns, _usable_line(problem, selected), PASSES, device.dimensions())
+    result = device.at(*solution.dimensions.tolist())
     maneuvers, flights = problem.requirement.maneuvers, list[Flight]()
     for maneuver, turn, motion in zip(maneuvers, turns, solution.motions, strict=True):
-        own = found.incidence if maneuver.incidence is None else maneuver.incidence
-        flown = replace(turn, gyrostat=_gyrostat(problem, found, own))
-        flights.append(fly(flown, _usable(problem, found), motion))
-    failed = (
-        f"in {turn.asked.name!r}, {flight.failure}"
+        incidence = result.incidence if maneuver.incidence is None else maneuver.incidence
+        flown = replace(turn, gyrostat=_gyrostat(problem, result, incidence))
+        flights.append(fly(flown, _usable_line(problem, result), motion))
+    failures = (
+        f"in {turn.boundary.name!r}, {flight.failure}"
         for turn, flight in zip(turns, flights, strict=True)
         if flight.failure
     )
-    ratio, wrong = found.mass / mass, next(failed, "")
+    mass_ratio, failure = result.mass / mass, next(failures, "")
     if not solution.solved:
-        wrong = f"IPOPT ended with {solution.status}"
-    elif not wrong and ratio > 1.0 - LEAST_GAIN:
-        more = f"{100.0 * (ratio - 1.0):+.2f} % of mass"
-        wrong = f"the co-design in 3-D found nothing lighter ({more})"
+        failure = f"IPOPT ended with {solution.status}"
+    elif not failure and mass_ratio > 1.0 - LEAST_GAIN:
+        difference = f"{100.0 * (mass_ratio - 1.0):+.2f} % of mass"
+        failure = f"the co-design in 3-D found nothing lighter ({difference})"
     outcome = replace(
-        stands,
-        note=f"the selection stands: {wrong}",
-        found_mass=found.mass,
+        rejected,
+        note=f"the selection stands: {failure}",
+        found_mass=result.mass,
         status=solution.status,
         iterations=solution.iterations,
         flights=tuple(flights),
     )
-    if wrong:
+    if failure:
         return outcome
     # Each maneuver needs what it takes in 3-D, and all the time given. Its smallest spin inertia is
     # that of the closed form, or the device's own where a smaller one suffices.
     demands = [
         replace(
             demand,
-            incidence=found.incidence if maneuver.incidence is None else demand.incidence,
-            spin_inertia=min(demand.spin_inertia, found.spin_inertia),
+            incidence=result.incidence if maneuver.incidence is None else demand.incidence,
+            spin_inertia=min(demand.spin_inertia, result.spin_inertia),
             time_needed=demand.time_given,
             peak_speed=float(np.abs(flight.trajectory.wheel_speed).max()),
             peak_torque=float(np.abs(flight.trajectory.wheel_torque).max()),
         )
-        for maneuver, demand, flight in zip(maneuvers, found.demands, flights, strict=False)
+        for maneuver, demand, flight in zip(maneuvers, result.demands, flights, strict=False)
     ]
-    demands += rate_demands(problem.requirement, found, TiltInertia.of(found.total.inertia))
+    demands += rate_demands(problem.requirement, result, TiltInertia.of(result.total.inertia))
     return replace(
         outcome,
         adopted=True,
         note=f"co-design in 3-D saves {outcome.gain:.2%} of the selection's mass",
         device=replace(
-            found,
+            result,
             demands=tuple(demands),
             residual=solution.violation,
             iterations=solution.iterations,
@@ -188,7 +188,7 @@ class FreeDevice:
         modules = with_wheels(problem, selected, _WHEELS, np.ones_like(_WHEELS))
         factors = np.array([each.spin_inertia for each in modules]) / selected.spin_inertia
         radii = np.linspace(_RADII[0], max(min(_RADII[-1], room), 1.0), _RADII.size)
-        if factors.size < _FEWEST:
+        if factors.size < _SPLINE_POINTS_MIN:
             return None
         # In the order of a tensor, the first dimension fastest.
         spin, outer = (each.ravel() for each in np.meshgrid(factors, radii))
@@ -207,14 +207,14 @@ class FreeDevice:
 
     def at(self, factor: float, radius: float, incidence: float) -> Candidate:
         """The device with these dimensions."""
-        found = next(
+        device = next(
             with_wheels(self.problem, self.selected, np.array([factor]), np.array([radius]))
         )
-        return replace(found, incidence=incidence, robot=self.problem.robot)
+        return replace(device, incidence=incidence, robot=self.problem.robot)
 
-    def plant(self, dimensions: ca.MX, own: float | None = None) -> Plant:
-        """Symbolic robot and device, at the incidence among the dimensions or at `own` [rad]."""
-        incidence = dimensions[2] if own is None else ca.MX(own)
+    def plant(self, dimensions: ca.MX, own_incidence: float | None = None) -> Plant:
+        """Symbolic robot and device, at their incidence or `own_incidence` [rad]."""
+        incidence = dimensions[2] if own_incidence is None else ca.MX(own_incidence)
         sine, cosine = ca.sin(incidence), ca.cos(incidence)
         terms = ca.vertcat(1.0, sine, cosine, sine**2, sine * cosine)
         inertia = ca.reshape(self.figures(dimensions[:2])[1:], 9, 5) @ terms
@@ -230,15 +230,17 @@ class FreeDevice:
         start = self.at(*self.dimensions().start.tolist())
         requirement = self.problem.requirement
         for maneuver in requirement.maneuvers:
-            own = maneuver.incidence
-            asked = maneuver.boundary(requirement.standing_height)
-            gyrostat = _gyrostat(self.problem, start, start.incidence if own is None else own)
-            yield Phase(asked, gyrostat, partial(self.plant, own=own))
+            incidence = maneuver.incidence
+            boundary = maneuver.boundary(requirement.standing_height)
+            gyrostat = _gyrostat(
+                self.problem, start, start.incidence if incidence is None else incidence
+            )
+            yield Phase(boundary, gyrostat, partial(self.plant, own_incidence=incidence))
 
     def dimensions(self) -> Dimensions:
         """Bounds of all three dimensions, and the mass to be minimised."""
         incidence, requirement = self.selected.incidence, self.problem.requirement
-        nearest, farthest = _NEAREST, np.pi / 2.0 - _NEAREST
+        nearest, farthest = _ANGLE_MARGIN, np.pi / 2.0 - _ANGLE_MARGIN
         # A device for one axis stays one: otherwise the other axis would have to be stopped too.
         if self.problem.incidence is not None or not nearest < incidence < farthest:
             nearest = farthest = incidence
@@ -248,8 +250,9 @@ class FreeDevice:
             for each in requirement.maneuvers
             if each.incidence is None and each.name in requirement.reserves
         )
-        change, roll = requirement.rate_change or 0.0, max(rolls, default=0.0)
-        top, robot = float(self.selected.line.reserved().top_speed), self.problem.robot.inertia
+        rate_change, roll = requirement.rate_change or 0.0, max(rolls, default=0.0)
+        top_speed = float(self.selected.line.reserved().top_speed)
+        robot_inertia = self.problem.robot.inertia
         # One wheel is the busier one; which of the two does not depend on the dimensions.
         sense = np.sign(TiltInertia.of(self.selected.total.inertia).product)
 
@@ -260,16 +263,20 @@ class FreeDevice:
             (`roll_cancelling_momentum`).
             """
             plant, parts = self.plant(dimensions), []
-            whole, shares = plant.inertia, plant.axes[:2, 0]
-            held = 2.0 * top * plant.spin_inertia * shares
-            if change:
-                product = whole[0, 1] - whole[0, 2] * whole[1, 2] / whole[2, 2]
-                across = sense * product * shares / ca.vertcat(shares[1], shares[0])
-                asked = (ca.vertcat(whole[0, 0], whole[1, 1]) + across) * change
-                parts.append((asked - held) / ca.DM(np.diag(robot)[:2] * change))
+            inertia, shares = plant.inertia, plant.axes[:2, 0]
+            absorbed = 2.0 * top_speed * plant.spin_inertia * shares
+            if rate_change:
+                product = inertia[0, 1] - inertia[0, 2] * inertia[1, 2] / inertia[2, 2]
+                coupling = sense * product * shares / ca.vertcat(shares[1], shares[0])
+                required = (ca.vertcat(inertia[0, 0], inertia[1, 1]) + coupling) * rate_change
+                parts.append(
+                    (required - absorbed) / ca.DM(np.diag(robot_inertia)[:2] * rate_change)
+                )
             if roll:
-                asked = whole[0, 0] * (1.0 + whole[0, 0] / whole[2, 2]) * roll / ROLL_CANCELLED
-                parts.append((asked - held[0]) / float(robot[0, 0] * roll))
+                required = (
+                    inertia[0, 0] * (1.0 + inertia[0, 0] / inertia[2, 2]) * roll / ROLL_CANCELLED
+                )
+                parts.append((required - absorbed[0]) / float(robot_inertia[0, 0] * roll))
             return ca.vertcat(*parts)
 
         return Dimensions(
@@ -277,7 +284,7 @@ class FreeDevice:
             lower=np.append(self.lower, nearest),
             upper=np.append(self.upper, farthest),
             objective=lambda dimensions: self.figures(dimensions[:2])[0],
-            excess=excess if change or roll else None,
+            excess=excess if rate_change or roll else None,
         )
 
 
@@ -312,10 +319,10 @@ def _gyrostat(problem: SelectionProblem, device: Candidate, incidence: float) ->
     return Gyrostat(inertia, module_axes(incidence), device.spin_inertia, device.drive.armature)
 
 
-def _usable(problem: SelectionProblem, device: Candidate) -> DriveLine:
+def _usable_line(problem: SelectionProblem, device: Candidate) -> DriveLine:
     """Voltage line that the drives may use, reduced by the reserve's factor.
 
     The largest reserve of all maneuvers applies to each.
     """
-    factors = (kept.demand for kept in problem.requirement.reserves.values())
+    factors = (reserve.demand for reserve in problem.requirement.reserves.values())
     return device.line.reserved(RESERVE / max(factors, default=1.0))

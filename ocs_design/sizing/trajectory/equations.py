@@ -49,25 +49,25 @@ def interval(wheels: int, *, stands: bool) -> ca.Function:
     states = ca.SX.sym("states", 4 + wheels + 3 * stands, DEGREE + 1)
     torques = ca.SX.sym("torques", wheels, TORQUE_DEGREE + 1)
     length = ca.SX.sym("length")
-    inverse, held = ca.SX.sym("inverse", 3, 3), ca.SX.sym("held", 3, wheels)
-    driven, momentum = ca.SX.sym("driven"), ca.SX.sym("momentum", 3)
-    axis, copper, pull = ca.SX.sym("axis", 3), ca.SX.sym("copper"), ca.SX.sym("pull", 3)
-    mobility = held.T @ inverse
-    mass = driven * ca.SX.eye(wheels) - mobility @ held
+    inverse, coupling = ca.SX.sym("inverse", 3, 3), ca.SX.sym("held", 3, wheels)
+    driven_inertia, momentum = ca.SX.sym("driven"), ca.SX.sym("momentum", 3)
+    axis, copper, gravity_moment = ca.SX.sym("axis", 3), ca.SX.sym("copper"), ca.SX.sym("pull", 3)
+    mobility = coupling.T @ inverse
+    mass = driven_inertia * ca.SX.eye(wheels) - mobility @ coupling
     slopes, values = states @ DERIVATIVE.T, torques @ TORQUE.T
     turning, driving, rates, swinging = [], [], [], []
     speeds, elevated = states[4 : 4 + wheels, :] @ BERNSTEIN.T, torques @ ELEVATION.T
     power = _product_of_coefficients(elevated, copper * elevated + speeds)
     for j in range(DEGREE):
         attitude, speed = states[:4, j + 1], states[4 : 4 + wheels, j + 1]
-        now = states[4 + wheels :, j + 1] if stands else momentum
-        seen = _turned(_back(attitude), now)
-        rate = inverse @ (seen - held @ speed)
+        momentum_now = states[4 + wheels :, j + 1] if stands else momentum
+        momentum_in_trunk = _rotated(_inverse(attitude), momentum_now)
+        rate = inverse @ (momentum_in_trunk - coupling @ speed)
         change = 0.5 * _product(attitude, ca.vertcat(0.0, rate))
-        torque = values[:, j] + mobility @ ca.cross(rate, seen)
+        torque = values[:, j] + mobility @ ca.cross(rate, momentum_in_trunk)
         if stands:
-            gravity = ca.cross(ca.SX([0.0, 0.0, 1.0]), _turned(attitude, pull))
-            torque -= mobility @ _turned(_back(attitude), gravity)
+            gravity = ca.cross(ca.SX([0.0, 0.0, 1.0]), _rotated(attitude, gravity_moment))
+            torque -= mobility @ _rotated(_inverse(attitude), gravity)
             swinging.append(slopes[4 + wheels :, j] - gravity * length)
         turning.append(slopes[:4, j] - change * length)
         driving.append(mass @ slopes[4 : 4 + wheels, j] - torque * length)
@@ -76,7 +76,9 @@ def interval(wheels: int, *, stands: bool) -> ca.Function:
         "states": states,
         "torques": torques,
         "length": length,
-        "figures": ca.veccat(inverse, held, driven, momentum, axis, copper, pull),
+        "figures": ca.veccat(
+            inverse, coupling, driven_inertia, momentum, axis, copper, gravity_moment
+        ),
     }
     outputs = {
         "turning": ca.horzcat(*turning),
@@ -89,12 +91,12 @@ def interval(wheels: int, *, stands: bool) -> ca.Function:
         "power": power,
         "swinging": ca.horzcat(*swinging),
     }
-    both = list(inputs.values()), list(outputs.values())
-    return ca.Function("interval", *both, list(inputs), list(outputs))
+    inputs_and_outputs = list(inputs.values()), list(outputs.values())
+    return ca.Function("interval", *inputs_and_outputs, list(inputs), list(outputs))
 
 
 @cache
-def left_power(wheels: int) -> ca.Function:
+def remaining_power(wheels: int) -> ca.Function:
     """Bernstein coefficients of the remaining wheels' power in one interval [W], (1, 2 d + 1).
 
     Inputs: Bernstein coefficients of speeds and torques planned for all wheels, (n, d + 1) each;
@@ -104,9 +106,9 @@ def left_power(wheels: int) -> ca.Function:
     speeds = ca.SX.sym("speeds", wheels, DEGREE + 1)
     torques = ca.SX.sym("torques", wheels, DEGREE + 1)
     shared, added = ca.SX.sym("shared", wheels, wheels), ca.SX.sym("added", wheels)
-    copper, taken = ca.SX.sym("copper"), shared @ torques
-    given = copper * taken + shared @ speeds + ca.repmat(added, 1, DEGREE + 1)
-    power = _product_of_coefficients(taken, given)
+    copper, torques_left = ca.SX.sym("copper"), shared @ torques
+    voltages = copper * torques_left + shared @ speeds + ca.repmat(added, 1, DEGREE + 1)
+    power = _product_of_coefficients(torques_left, voltages)
     return ca.Function("left", [speeds, torques, shared, added, copper], [power])
 
 
@@ -120,7 +122,7 @@ def _product_of_coefficients(a: ca.SX, b: ca.SX) -> ca.SX:
     )
 
 
-def start_of(asked: Boundary, gyrostat: Gyrostat) -> ca.Function:
+def start_of(boundary: Boundary, gyrostat: Gyrostat) -> ca.Function:
     """Function from a plant to its attitude at the start, and its figures in one column.
 
     They are I^-1 (about an edge, restricted to it), h A, h + a and the momentum in the world.
@@ -128,30 +130,32 @@ def start_of(asked: Boundary, gyrostat: Gyrostat) -> ca.Function:
     wheels = gyrostat.axes.shape[1]
     inertia, axes = ca.SX.sym("inertia", 3, 3), ca.SX.sym("axes", 3, wheels)
     spin_inertia, armature = ca.SX.sym("spin_inertia"), ca.SX.sym("armature")
-    attitude, rate = after_push(asked)(inertia)
-    held = spin_inertia * axes
-    speed = np.broadcast_to(np.asarray(asked.wheel_speed), (wheels,))
-    momentum = _turned(attitude, inertia @ rate + held @ ca.DM(speed))
+    attitude, rate = after_push(boundary)(inertia)
+    coupling = spin_inertia * axes
+    speed = np.broadcast_to(np.asarray(boundary.wheel_speed), (wheels,))
+    momentum = _rotated(attitude, inertia @ rate + coupling @ ca.DM(speed))
     inverse = ca.inv(inertia)
     if gyrostat.edge is not None:
         edge = ca.DM(gyrostat.edge)
         inverse = edge @ edge.T / (edge.T @ inertia @ edge)
-    figures = ca.veccat(inverse, held, spin_inertia + armature, momentum)
+    figures = ca.veccat(inverse, coupling, spin_inertia + armature, momentum)
     return ca.Function("start", [inertia, axes, spin_inertia, armature], [attitude, figures])
 
 
-def after_push(asked: Boundary) -> ca.Function:
+def after_push(boundary: Boundary) -> ca.Function:
     """Attitude (4, 1) and rate [rad/s] (3, 1) at the start of the turn for an inertia I_tot (3, 3).
 
     The torque of a push is constant in B while it turns robot and device as one rigid body: Euler's
     equation by classical Runge-Kutta steps.
     """
-    inertia, now = ca.SX.sym("inertia", 3, 3), ca.SX.sym("now", 7)
-    rate, step = now[4:], asked.push.duration / _PUSH_STEPS
-    free = ca.DM(asked.push.torque) - ca.cross(rate, inertia @ rate)
-    change = ca.vertcat(0.5 * _product(now[:4], ca.vertcat(0.0, rate)), ca.inv(inertia) @ free)
-    slope = ca.Function("slope", [now, inertia], [change])
-    state = ca.SX(ca.vertcat(ca.DM(asked.attitude), ca.DM(asked.rate)))
+    inertia, state_now = ca.SX.sym("inertia", 3, 3), ca.SX.sym("now", 7)
+    rate, step = state_now[4:], boundary.push.duration / _PUSH_STEPS
+    torque = ca.DM(boundary.push.torque) - ca.cross(rate, inertia @ rate)
+    change = ca.vertcat(
+        0.5 * _product(state_now[:4], ca.vertcat(0.0, rate)), ca.inv(inertia) @ torque
+    )
+    slope = ca.Function("slope", [state_now, inertia], [change])
+    state = ca.SX(ca.vertcat(ca.DM(boundary.attitude), ca.DM(boundary.rate)))
     for _ in range(_PUSH_STEPS if step > 0.0 else 0):
         k1 = slope(state, inertia)
         k2 = slope(state + step / 2.0 * k1, inertia)
@@ -161,7 +165,7 @@ def after_push(asked: Boundary) -> ca.Function:
     return ca.Function("after_push", [inertia], [state[:4], state[4:]])
 
 
-def missed(axes_of_tilt: int, *, whole: bool) -> ca.Function:
+def end_violation(axes_of_tilt: int, *, whole: bool) -> ca.Function:
     """Violation of the final conditions, which must be zero.
 
     This is the remaining tilt about the axes that the wheels control, or all of the remaining turn.
@@ -174,13 +178,13 @@ def missed(axes_of_tilt: int, *, whole: bool) -> ca.Function:
     attitude, final = ca.SX.sym("attitude", 4), ca.SX.sym("final", 4)
     up, righted = ca.SX.sym("up", 3), ca.SX.sym("righted", axes_of_tilt, 3)
     if whole:
-        left = _product(_back(final), attitude)[1:]
+        remaining = _product(_inverse(final), attitude)[1:]
     else:
-        left = righted @ (_turned(_back(attitude), ca.SX([0.0, 0.0, 1.0])) - up)
-    return ca.Function("missed", [attitude, final, up, righted], [left])
+        remaining = righted @ (_rotated(_inverse(attitude), ca.SX([0.0, 0.0, 1.0])) - up)
+    return ca.Function("missed", [attitude, final, up, righted], [remaining])
 
 
-def _turned(attitude: ca.SX, vector: ca.SX) -> ca.SX:
+def _rotated(attitude: ca.SX, vector: ca.SX) -> ca.SX:
     """A vector of B in the world, (3, 1)."""
     along, across = attitude[0], attitude[1:]
     twice = 2.0 * ca.cross(across, vector)
@@ -193,6 +197,6 @@ def _product(a: ca.SX, b: ca.SX) -> ca.SX:
     return ca.vertcat(scalar, a[0] * b[1:] + b[0] * a[1:] + ca.cross(a[1:], b[1:]))
 
 
-def _back(attitude: ca.SX) -> ca.SX:
+def _inverse(attitude: ca.SX) -> ca.SX:
     """The inverse rotation, (4, 1)."""
     return ca.vertcat(attitude[0], -attitude[1:])

@@ -49,31 +49,33 @@ class Flight:
         return ""
 
 
-def fly(flown: Phase, line: DriveLine, motion: Motion) -> Flight:
+def fly(phase: Phase, line: DriveLine, motion: Motion) -> Flight:
     """Integrate the torques of a motion from the start of the turn, for this robot and device.
 
     `line`: usable voltage line of the drives.
     """
-    asked, gyrostat, turn = flown.asked, flown.gyrostat, flown.outline
+    boundary, gyrostat, turn = phase.boundary, phase.gyrostat, phase.outline
     wheels = gyrostat.axes.shape[1]
     mass_matrix = gyrostat.mass_matrix
-    inverse, pull = gyrostat.inverse_mass_matrix, gyrostat.pull
+    inverse, gravity_moment = gyrostat.inverse_mass_matrix, gyrostat.gravity_moment
 
     def slope(state: FloatArray, torque: FloatArray) -> FloatArray:
         """Rates of change of attitude, rate and wheel speeds, shape (7 + n,)."""
         rate = state[4:7]
-        on_trunk = cross(mass_matrix[:3] @ state[4:], rate)
+        trunk_torque = cross(mass_matrix[:3] @ state[4:], rate)
         if gyrostat.stands:
-            on_trunk += cross(scaled_vertical(state[:4]), pull)
-        accelerations = inverse @ np.concatenate([on_trunk, torque])
+            trunk_torque += cross(scaled_vertical(state[:4]), gravity_moment)
+        accelerations = inverse @ np.concatenate([trunk_torque, torque])
         turning = 0.5 * product(state[:4], np.append(0.0, rate))
         return np.concatenate([turning, accelerations])
 
     steps = np.repeat(motion.lengths / FINER, FINER)
     offsets = np.arange(FINER) / FINER
-    first, middle, last = (motion.torque_within(offsets + part / FINER) for part in (0.0, 0.5, 1.0))
+    first, middle, last = (
+        motion.torque_within(offsets + fraction / FINER) for fraction in (0.0, 0.5, 1.0)
+    )
     rate = turn.rate * turn.axis
-    speed = np.broadcast_to(np.asarray(asked.wheel_speed), (wheels,))
+    speed = np.broadcast_to(np.asarray(boundary.wheel_speed), (wheels,))
     state = np.concatenate([turn.attitude, rate, speed])
     states = [state]
     for h, before, halfway, after in zip(steps, first, middle, last, strict=True):
@@ -83,29 +85,33 @@ def fly(flown: Phase, line: DriveLine, motion: Motion) -> Flight:
         k4 = slope(state + h * k3, after)
         state = state + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
         states.append(state)
-    passed = np.array(states)
+    integrated = np.array(states)
     torque = np.vstack([first[:1], (first[1:] + last[:-1]) / 2.0, last[-1:]])
     trajectory = Trajectory(
         time=np.append(0.0, np.cumsum(steps)),
-        vertical=scaled_vertical(passed[:, :4]),
-        rate=passed[:, 4:7],
-        acceleration=np.array([slope(*row)[4:7] for row in zip(passed, torque, strict=True)]),
-        wheel_speed=passed[:, 7:],
+        vertical=scaled_vertical(integrated[:, :4]),
+        rate=integrated[:, 4:7],
+        acceleration=np.array([slope(*row)[4:7] for row in zip(integrated, torque, strict=True)]),
+        wheel_speed=integrated[:, 7:],
         wheel_torque=torque,
         note="",
         step_torque=np.stack([first, last], axis=1),
-        attitude=passed[:, :4],
+        attitude=integrated[:, :4],
     )
-    claimed = motion.state_at(trajectory.time)
-    held = rotated_to_world(turn.attitude, mass_matrix[:3] @ np.append(rate, speed))
+    planned = motion.state_at(trajectory.time)
+    momentum = rotated_to_world(turn.attitude, mass_matrix[:3] @ np.append(rate, speed))
     if gyrostat.stands:
-        held = claimed[4 + wheels :].T
-    attitude = claimed[:4].T
-    seen = rotated_to_world(conjugate(attitude), np.broadcast_to(held, (len(attitude), 3)))
-    left = seen.T - gyrostat.spin_inertia * gyrostat.axes @ claimed[4 : 4 + wheels]
-    claimed_rate = (gyrostat.mobility @ left).T
-    largest = float(np.abs(claimed_rate).max())
-    difference = float(np.abs(trajectory.rate - claimed_rate).max())
+        momentum = planned[4 + wheels :].T
+    attitude = planned[:4].T
+    momentum_in_trunk = rotated_to_world(
+        conjugate(attitude), np.broadcast_to(momentum, (len(attitude), 3))
+    )
+    trunk_momentum = (
+        momentum_in_trunk.T - gyrostat.spin_inertia * gyrostat.axes @ planned[4 : 4 + wheels]
+    )
+    planned_rate = (gyrostat.mobility @ trunk_momentum).T
+    largest = float(np.abs(planned_rate).max())
+    difference = float(np.abs(trajectory.rate - planned_rate).max())
     return Flight(
         trajectory,
         # Before and after each jump: both torques may be within limits, and their mean not.

@@ -34,7 +34,7 @@ class Gyrostat:
         axes: A, unit spin axes as columns, shape (3, n).
         spin_inertia: h, momentum of one wheel per speed relative to the trunk [kg m^2].
         armature: a, inertia that a motor accelerates beyond h [kg m^2].
-        pull: m g l from the pivot, in B [N m], shape (3,); zero in free flight.
+        gravity_moment: m g l from the pivot, in B [N m], shape (3,); zero in free flight.
         edge: unit vector in B, the only axis about which the trunk turns, shape (3,); None: any
             axis.
     """
@@ -43,26 +43,26 @@ class Gyrostat:
     axes: FloatArray
     spin_inertia: float
     armature: float = 0.0
-    pull: FloatArray = field(default_factory=lambda: np.zeros(3))
+    gravity_moment: FloatArray = field(default_factory=lambda: np.zeros(3))
     edge: FloatArray | None = None
 
     @property
     def stands(self) -> bool:
         """Whether it turns about a pivot, with gravity."""
-        return bool(self.pull.any())
+        return bool(self.gravity_moment.any())
 
     @property
-    def turns_about(self) -> FloatArray:
+    def controlled_axes(self) -> FloatArray:
         """Axes in B about which the trunk is free and the wheels act, as rows, shape (k, 3)."""
         if self.edge is None:
-            return np.eye(3)[self.reach]
+            return np.eye(3)[self.controlled]
         reached = np.abs(self.edge @ self.axes).max() > NO_AUTHORITY
         return np.reshape(self.edge if reached else (), (-1, 3))
 
     @property
     def upright(self) -> FloatArray:
         """Attitude with the centre of mass above the pivot, the nearest to level, shape (4,)."""
-        return quaternions.upright(self.pull)
+        return quaternions.upright(self.gravity_moment)
 
     @property
     def mobility(self) -> FloatArray:
@@ -80,10 +80,10 @@ class Gyrostat:
         if self.edge is None:
             return np.asarray(np.linalg.inv(self.mass_matrix))
         wheels = self.axes.shape[1]
-        allowed = np.zeros((3 + wheels, 1 + wheels))
-        allowed[:3, 0], allowed[3:, 1:] = self.edge, np.eye(wheels)
-        reduced = allowed.T @ self.mass_matrix @ allowed
-        return np.asarray(allowed @ np.linalg.solve(reduced, allowed.T))
+        motions = np.zeros((3 + wheels, 1 + wheels))
+        motions[:3, 0], motions[3:, 1:] = self.edge, np.eye(wheels)
+        reduced = motions.T @ self.mass_matrix @ motions
+        return np.asarray(motions @ np.linalg.solve(reduced, motions.T))
 
     @property
     def mass_matrix(self) -> FloatArray:
@@ -120,12 +120,12 @@ class Gyrostat:
         return float(alone + self.reaction**2 * np.abs(coupling).sum(axis=1).max())
 
     @property
-    def reach(self) -> NDArray[np.bool_]:
+    def controlled(self) -> NDArray[np.bool_]:
         """Whether the wheels have authority about each axis of B, shape (3,)."""
         return np.asarray(np.abs(self.axes).max(axis=1) > NO_AUTHORITY)
 
     @property
-    def spanned(self) -> int:
+    def axis_rank(self) -> int:
         """Number of independent axes of the wheels."""
         return int(np.linalg.matrix_rank(self.axes, NO_AUTHORITY))
 
@@ -145,15 +145,17 @@ def shared_by_others(axes: FloatArray, wheel: int) -> FloatArray:
     Args:
         axes: A, as columns, shape (3, n). wheel: k, whose motor gives no torque.
     """
-    runs = np.arange(axes.shape[1]) != wheel
-    return np.asarray(runs[:, None] * (np.linalg.pinv(axes * runs, rcond=NO_AUTHORITY) @ axes))
+    running = np.arange(axes.shape[1]) != wheel
+    return np.asarray(
+        running[:, None] * (np.linalg.pinv(axes * running, rcond=NO_AUTHORITY) @ axes)
+    )
 
 
-def taken_over(axes: FloatArray) -> float:
+def takeover_factor(axes: FloatArray) -> float:
     """Largest motor torque after one motor has stopped, relative to the largest before.
 
     The largest row sum of `shared_by_others` over all motors that may stop: at least 1, and 2 for
     four wheels in two pairs, a triad and a pyramid.
     """
     wheels = range(axes.shape[1])
-    return max(float(np.abs(shared_by_others(axes, each)).sum(axis=1).max()) for each in wheels)
+    return max(float(np.abs(shared_by_others(axes, wheel)).sum(axis=1).max()) for wheel in wheels)

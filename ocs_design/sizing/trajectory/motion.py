@@ -67,8 +67,10 @@ class Motion:
     def torque_at(self, times: FloatArray) -> FloatArray:
         """Torques [N m], shape (n, len(times)); where two intervals meet, of the later one."""
         interval, s = self._locate(times)
-        own = interval[:, None] * (TORQUE_DEGREE + 1) + np.arange(TORQUE_DEGREE + 1)
-        return np.asarray(np.einsum("imj,mj->im", self.torques[:, own], bernstein_basis(s)))
+        coefficients = interval[:, None] * (TORQUE_DEGREE + 1) + np.arange(TORQUE_DEGREE + 1)
+        return np.asarray(
+            np.einsum("imj,mj->im", self.torques[:, coefficients], bernstein_basis(s))
+        )
 
     def torque_within(self, s: FloatArray) -> FloatArray:
         """Torques in every interval at s = 0..1 [N m], shape (k len(s), n), ordered by time."""
@@ -85,23 +87,25 @@ class Motion:
         Wheel speeds that do not move the trunk are kept at the end; otherwise the change is undone.
         """
         wheels = len(self.torques)
-        each = -np.arange(wheels) / wheels
-        idle = each - np.linalg.pinv(gyrostat.axes, rcond=NO_AUTHORITY) @ gyrostat.axes @ each
-        stays = bool(np.abs(idle).max() > NO_AUTHORITY)
-        most = UNEVEN * np.abs(self.states[4 : 4 + wheels]).max()
-        speeds = most * (idle / np.abs(idle).max() if stays else each)
+        offsets = -np.arange(wheels) / wheels
+        idle = offsets - np.linalg.pinv(gyrostat.axes, rcond=NO_AUTHORITY) @ gyrostat.axes @ offsets
+        persists = bool(np.abs(idle).max() > NO_AUTHORITY)
+        largest = UNEVEN * np.abs(self.states[4 : 4 + wheels]).max()
+        speeds = largest * (idle / np.abs(idle).max() if persists else offsets)
         time = self.lengths.sum()
         starts, lengths = self.starts[:, None] / time, self.lengths[:, None] / time
         s = np.append(0.0, (starts + lengths * NODES[1:]).ravel())
-        at = (starts + lengths * np.array([0.0, 0.5, 1.0])).ravel()
-        share, slope = (s**2, 2.0 * at) if stays else (s**2 * (1.0 - s), 2.0 * at - 3.0 * at**2)
+        points = (starts + lengths * np.array([0.0, 0.5, 1.0])).ravel()
+        share, slope = (
+            (s**2, 2.0 * points) if persists else (s**2 * (1.0 - s), 2.0 * points - 3.0 * points**2)
+        )
         slope = _parabolas(slope)
-        states, driven = self.states.copy(), gyrostat.spin_inertia + gyrostat.armature
+        states, driven_inertia = self.states.copy(), gyrostat.spin_inertia + gyrostat.armature
         states[4 : 4 + wheels] += np.outer(speeds, share)
-        torques = self.torques + np.outer(driven * speeds / time, slope)
+        torques = self.torques + np.outer(driven_inertia * speeds / time, slope)
         return Motion(self.lengths, states, torques)
 
-    def onto(self, lengths: FloatArray) -> "Motion":
+    def on_intervals(self, lengths: FloatArray) -> "Motion":
         """Nearly the same motion on other intervals."""
         starts = np.append(0.0, np.cumsum(lengths)[:-1])[:, None]
         nodes = starts + lengths[:, None] * NODES[1:]
@@ -118,15 +122,19 @@ class Motion:
         """
         count = len(self.lengths)
         torque = self.torque_within(np.linspace(0.0, 1.0, _SAMPLES)).reshape(count, _SAMPLES, -1)
-        inside = np.abs(np.diff(torque, axis=1)).sum(axis=(1, 2))
+        within = np.abs(np.diff(torque, axis=1)).sum(axis=(1, 2))
         jumps = np.append(np.abs(torque[1:, 0] - torque[:-1, -1]).sum(axis=1), 0.0)
-        variation = inside + jumps
+        variation = within + jumps
         spread = np.convolve(np.pad(variation, 1, mode="edge"), [0.25, 0.5, 0.25], mode="valid")
-        even = self.lengths / self.lengths.sum()
-        density = _EVEN * even + (1.0 - _EVEN) * spread / max(spread.sum(), np.finfo(float).tiny)
-        reached = np.append(0.0, np.cumsum(density / density.sum()))
+        time_density = self.lengths / self.lengths.sum()
+        density = _EVEN * time_density + (1.0 - _EVEN) * spread / max(
+            spread.sum(), np.finfo(float).tiny
+        )
+        cumulated = np.append(0.0, np.cumsum(density / density.sum()))
         edges = np.append(self.starts, self.lengths.sum())
-        return self.onto(np.diff(np.interp(np.linspace(0.0, 1.0, intervals + 1), reached, edges)))
+        return self.on_intervals(
+            np.diff(np.interp(np.linspace(0.0, 1.0, intervals + 1), cumulated, edges))
+        )
 
     def _locate(self, times: FloatArray) -> tuple[NDArray[np.intp], FloatArray]:
         """Interval of each time, and the fraction of it elapsed, 0..1."""
@@ -137,9 +145,11 @@ class Motion:
 
 def _parabolas(values: FloatArray) -> FloatArray:
     """Bernstein coefficients of parabolas through values at start, middle and end, (..., 3 k)."""
-    found = values.copy()
-    found[..., 1::3] = 2.0 * values[..., 1::3] - (values[..., 0::3] + values[..., 2::3]) / 2.0
-    return found
+    coefficients = values.copy()
+    coefficients[..., 1::3] = (
+        2.0 * values[..., 1::3] - (values[..., 0::3] + values[..., 2::3]) / 2.0
+    )
+    return coefficients
 
 
 def _even_mesh(duration: float, intervals: int) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -202,22 +212,28 @@ class FixedAxisTurn:
     duration: float
 
     @classmethod
-    def of(cls, asked: Boundary, attitude: FloatArray, rate: FloatArray) -> "FixedAxisTurn":
+    def of(cls, boundary: Boundary, attitude: FloatArray, rate: FloatArray) -> "FixedAxisTurn":
         """The turn that a maneuver requires.
 
         Args:
             attitude: at the start of the turn, which is the end of a push, shape (4,).
             rate: of the trunk then, in B [rad/s], shape (3,).
         """
-        fast = float(np.linalg.norm(rate))
-        if fast == 0.0:
-            return cls(attitude, asked.axis, 0.0, asked.angle, asked.duration)
+        speed = float(np.linalg.norm(rate))
+        if speed == 0.0:
+            return cls(attitude, boundary.axis, 0.0, boundary.angle, boundary.duration)
         # A push has turned the trunk about the axis of its rate, which must be undone; a brake has
         # set it in motion towards the final attitude.
-        vertical, wanted = scaled_vertical(attitude), asked.final_vertical
-        left = float(np.arccos(np.clip(vertical @ wanted, -1.0, 1.0)))
-        nears = np.cross(vertical, rate) @ wanted > 0.0
-        return cls(attitude, rate / fast, fast, left if nears else -left, asked.duration)
+        vertical, final_vertical = scaled_vertical(attitude), boundary.final_vertical
+        tilt_left = float(np.arccos(np.clip(vertical @ final_vertical, -1.0, 1.0)))
+        approaches = np.cross(vertical, rate) @ final_vertical > 0.0
+        return cls(
+            attitude,
+            rate / speed,
+            speed,
+            tilt_left if approaches else -tilt_left,
+            boundary.duration,
+        )
 
     def motion(self, gyrostat: Gyrostat, intervals: int) -> Motion:
         """The turn on even intervals with the wheels that drive it, ignoring their limits."""
@@ -225,17 +241,17 @@ class FixedAxisTurn:
         angle, rate, _ = self._profile(nodes)
         _, _, acceleration = self._profile(ends)
         # Wheel speeds that absorb a momentum of the trunk, per unit of momentum.
-        taking = gyrostat.sharing * gyrostat.reaction / gyrostat.spin_inertia
+        speed_per_momentum = gyrostat.sharing * gyrostat.reaction / gyrostat.spin_inertia
         momentum = gyrostat.inertia @ self.axis
-        speeds = taking @ np.outer(momentum, self.rate - rate)
-        driven = gyrostat.spin_inertia + gyrostat.armature
-        torques = -driven * taking @ np.outer(momentum, acceleration)
+        speeds = speed_per_momentum @ np.outer(momentum, self.rate - rate)
+        driven_inertia = gyrostat.spin_inertia + gyrostat.armature
+        torques = -driven_inertia * speed_per_momentum @ np.outer(momentum, acceleration)
         attitudes = product(self.attitude, from_axis_angle(self.axis, angle))
         states = [attitudes.T, speeds]
         if gyrostat.stands:
             # The initial guess is a motion without gravity.
-            whole = np.outer(momentum, rate) + gyrostat.spin_inertia * gyrostat.axes @ speeds
-            states.append(rotated_to_world(attitudes, whole.T).T)
+            momenta = np.outer(momentum, rate) + gyrostat.spin_inertia * gyrostat.axes @ speeds
+            states.append(rotated_to_world(attitudes, momenta.T).T)
         return Motion(lengths, np.vstack(states), torques)
 
     def _profile(self, s: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -274,11 +290,11 @@ class HeadingLoop:
     def motion(self, gyrostat: Gyrostat, intervals: int) -> Motion:
         """The loop on even intervals with the wheels that drive it, from rest, ignoring limits."""
         lengths, nodes, ends = _even_mesh(self.duration, intervals)
-        taking = -gyrostat.sharing * gyrostat.reaction / gyrostat.spin_inertia
-        to_speeds = taking @ gyrostat.inertia
+        speed_per_momentum = -gyrostat.sharing * gyrostat.reaction / gyrostat.spin_inertia
+        to_speeds = speed_per_momentum @ gyrostat.inertia
         change = (self._rate(ends + _INSIDE) - self._rate(ends - _INSIDE)) / (2.0 * _INSIDE)
-        driven = gyrostat.spin_inertia + gyrostat.armature
-        torques = driven * to_speeds @ change / self.duration
+        driven_inertia = gyrostat.spin_inertia + gyrostat.armature
+        torques = driven_inertia * to_speeds @ change / self.duration
         return Motion(
             lengths, np.vstack([self._path(nodes).T, to_speeds @ self._rate(nodes)]), torques
         )
@@ -294,13 +310,13 @@ class HeadingLoop:
         bend = np.copysign(1.0 / np.tan(radius), self.heading) if radius else 0.0
         axis = np.array([1.0, 0.0, bend]) / np.hypot(1.0, bend)
         z = np.array([0.0, 0.0, 1.0])
-        gone = loop_length(self.heading) * share
-        turned_back = from_axis_angle(z, -bend * gone - self.initial_direction)
-        loop = product(from_axis_angle(axis, np.hypot(1.0, bend) * gone), turned_back)
+        length = loop_length(self.heading) * share
+        turned_back = from_axis_angle(z, -bend * length - self.initial_direction)
+        loop = product(from_axis_angle(axis, np.hypot(1.0, bend) * length), turned_back)
         angle = float(np.linalg.norm(self.swing))
-        swung = from_axis_angle(self.swing / angle if angle else z, angle * share)
+        swing = from_axis_angle(self.swing / angle if angle else z, angle * share)
         turned = from_axis_angle(z, self.initial_direction)
-        return product(self.attitude, product(swung, product(turned, loop)))
+        return product(self.attitude, product(swing, product(turned, loop)))
 
     def _rate(self, s: FloatArray) -> FloatArray:
         """Rate of the trunk in B [rad/s], shape (3, len(s)), by central differences."""

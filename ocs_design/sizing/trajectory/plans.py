@@ -15,7 +15,7 @@ from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.pivoted import HELD_ON
 from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.trajectory.flight import Flight, fly
-from ocs_design.sizing.trajectory.gyrostat import Gyrostat, taken_over
+from ocs_design.sizing.trajectory.gyrostat import Gyrostat, takeover_factor
 from ocs_design.sizing.trajectory.motion import HeadingLoop, Trajectory
 from ocs_design.sizing.trajectory.program import Solution, solve
 from ocs_design.sizing.trajectory.tracking import tracking_gains
@@ -26,15 +26,15 @@ if TYPE_CHECKING:
 
 INTERVALS = 24
 
-GENTLE = (0.8, 0.9)
+GENTLE_SHARES = (0.8, 0.9)
 """Fractions of voltage, current and power that are tried first for a turn to an attitude: a heading
 is corrected by tilting more, which takes more torque than holding the trunk level."""
 
-LEAST_SPARE, SPARE = 0.9, 1.1
+HEADING_SHARE_MAX, EXTRA_DEMAND = 0.9, 1.1
 """Fraction of the drives that the plan of a heading may use, and least factor on the demand where
 it uses more."""
 
-TALL_SPARE = 0.65
+TALL_SHARE_MAX = 0.65
 """The same fraction for a tall body that turns by a loop of the tilt. Residual momentum of a
 push-off turns its heading more, by the ratio of its inertia about roll or pitch to that about
 yaw."""
@@ -46,11 +46,11 @@ quadrupeds have 0.4 to 1.0, humanoids 3 to 5."""
 TIME_STEP, LONGEST = 0.05, 8.0
 """Precision of a time that is searched for, and the longest one, relative to the time given."""
 
-BALANCE_STEP, _AT_ONCE = 5e-3, 1e-9
+BALANCE_STEP, _BALANCE_DELAY = 5e-3, 1e-9
 """Time step of the gains that hold a robot upright, and delay after the plan at which they start
 [s]."""
 
-_SAME = 1e-6
+_NO_HEADING = 1e-6
 """Change of heading that counts as zero [rad]."""
 
 _TOO_MUCH_FOR_OTHERS = "if a drive fails early in the turn, the other wheels cannot follow it"
@@ -86,38 +86,39 @@ class Reference:
     Attributes:
         trajectory: its note equals `note`; None: the validation does without a reference.
         note: one sentence; empty if the trajectory leaves the feedback its reserve.
-        needed: least time, relative to the time given, of a turn that cannot be made in it; None:
-            it can, or no time would do.
+        time_needed: least time, relative to the time given, of a turn that cannot be made in it;
+            None: it can, or no time would do.
         share: fraction of voltage, current and power that the trajectory keeps to; where a drive
             may stop, that to which the other drives are then held.
-        most: fraction of the drives that a plan of a heading may use.
-        part: fraction of the tilt from which a robot on a pivot could stand up, if not from all of
-            it.
-        spun: speed of the fastest wheel that a brake stops at the start [rad/s]; 0: none does.
+        share_max: fraction of the drives that a plan of a heading may use.
+        tilt_fraction: fraction of the tilt from which a robot on a pivot could stand up, if not
+            from all of it.
+        braked_speed: speed of the fastest wheel that a brake stops at the start [rad/s]; 0: none
+            does.
     """
 
     trajectory: Trajectory | None
     note: str
-    needed: float | None = None
+    time_needed: float | None = None
     share: float = 1.0
-    most: float = LEAST_SPARE
-    part: float | None = None
-    spun: float = 0.0
+    share_max: float = HEADING_SHARE_MAX
+    tilt_fraction: float | None = None
+    braked_speed: float = 0.0
 
-    def lacking(self, end: str) -> float | None:
+    def missing_demand(self, end: str) -> float | None:
         """Factor on the demand of the closed forms for a device that can do it; None: this one can.
 
         Momentum scales with the inverse of the time, torque with its inverse square. For a robot
-        that falls over from most tilts, the factor is capped, as `part` then says little. `end`: of
-        the turn, see `End`.
+        that falls over from most tilts, the factor is capped, as `tilt_fraction` then says little.
+        `end`: of the turn, see `End`.
         """
-        if self.trajectory is not None and (end == End.LEVEL or self.share <= self.most):
+        if self.trajectory is not None and (end == End.LEVEL or self.share <= self.share_max):
             return None
-        if self.part is not None:
-            return SPARE / max(self.part, 0.5)
+        if self.tilt_fraction is not None:
+            return EXTRA_DEMAND / max(self.tilt_fraction, 0.5)
         if self.trajectory is not None:
-            return max(SPARE, self.share / self.most)
-        return SPARE if self.needed is None else SPARE * self.needed**1.5
+            return max(EXTRA_DEMAND, self.share / self.share_max)
+        return EXTRA_DEMAND if self.time_needed is None else EXTRA_DEMAND * self.time_needed**1.5
 
 
 def plan(
@@ -140,16 +141,16 @@ def plan(
             absent.
         one_stops: see `reference`.
     """
-    line, factors, found = drive_line_of(device), kept or {}, {}
+    line, factors, references = drive_line_of(device), kept or {}, {}
     for maneuver in maneuvers:
-        flown = device.as_flown(maneuver)
-        own = maneuver.on(flown.on(robot))
-        gyrostat = gyrostat_of(robot, flown, own)
-        kept_of = factors.get(maneuver.name, 1.0)
-        found[maneuver.name] = reference(
-            gyrostat, line, own, standing_height, kept_of, one_stops=one_stops
+        device_there = device.as_flown(maneuver)
+        maneuver_there = maneuver.on(device_there.on(robot))
+        gyrostat = gyrostat_of(robot, device_there, maneuver_there)
+        factor = factors.get(maneuver.name, 1.0)
+        references[maneuver.name] = reference(
+            gyrostat, line, maneuver_there, standing_height, factor, one_stops=one_stops
         )
-    return found
+    return references
 
 
 def reference(
@@ -166,7 +167,7 @@ def reference(
     The device's reserve is left to the feedback: a plan of least power would use it up and run at
     top speed, which a robot with more inertia than designed could not follow. For the same reason,
     a plan that the other wheels must be able to take over leaves room for that: the torques of a
-    plan for all wheels then grow by `taken_over`, and the device was sized for them.
+    plan for all wheels then grow by `takeover_factor`, and the device was sized for them.
 
     Args:
         gyrostat: robot and device, at the incidence of the maneuver.
@@ -180,104 +181,123 @@ def reference(
     """
     if not maneuver.foreseen and not gyrostat.stands:
         return Reference(None, _UNFORESEEN)
-    asked = maneuver.boundary(standing_height)
+    boundary = maneuver.boundary(standing_height)
     if not maneuver.foreseen:
-        return Reference(_balanced(gyrostat, line, asked.duration), "")
-    spun = 0.0
-    if gyrostat.stands and asked.rate.any():
+        return Reference(_with_balancing(gyrostat, line, boundary.duration), "")
+    braked_speed = 0.0
+    if gyrostat.stands and boundary.rate.any():
         # Wheel speeds that the brake must stop about the controlled axes, h A W = I w.
-        reached, momentum = gyrostat.turns_about, gyrostat.inertia @ asked.rate
-        taken = np.linalg.pinv(reached @ gyrostat.axes) @ (reached @ momentum)
-        spun = float(np.abs(taken / gyrostat.spin_inertia).max())
-        most = float(line.top_speed)
-        if spun > most:
+        controlled, momentum = gyrostat.controlled_axes, gyrostat.inertia @ boundary.rate
+        absorbed = np.linalg.pinv(controlled @ gyrostat.axes) @ (controlled @ momentum)
+        braked_speed = float(np.abs(absorbed / gyrostat.spin_inertia).max())
+        top_speed = float(line.top_speed)
+        if braked_speed > top_speed:
             note = (
-                f"the brake would have to stop the wheels from {rpm(spun)}, but the motors reach "
-                f"only {rpm(most)}"
+                f"the brake would have to stop the wheels from {rpm(braked_speed)}, but the motors "
+                f"reach only {rpm(top_speed)}"
             )
-            return Reference(None, note, part=most / spun, spun=spun)
+            return Reference(
+                None, note, tilt_fraction=top_speed / braked_speed, braked_speed=braked_speed
+            )
     # Wheels of two axes turn the heading by a loop of the tilt; tall bodies yaw more easily.
     x, y, z = np.diag(gyrostat.inertia)
-    tall = not gyrostat.stands and gyrostat.spanned == 2 and max(x, y) > _TALL * z
-    loops = asked.end == End.ATTITUDE and tall
-    most = TALL_SPARE if loops else LEAST_SPARE
-    first = () if asked.end == End.LEVEL else (TALL_SPARE, *GENTLE)[not loops :]
-    shares = tuple(dict.fromkeys((*first, PLANNED / kept, PLANNED, 1.0)))
-    grows = taken_over(gyrostat.axes) if one_stops else 1.0
-    for share, left in [(own, each) for each in dict.fromkeys((grows, 1.0)) for own in shares]:
-        own_line = line.divided(left).reserved(share)
-        planned = gentlest(asked, gyrostat, own_line, one_stops=left > 1.0)
+    is_tall = not gyrostat.stands and gyrostat.axis_rank == 2 and max(x, y) > _TALL * z
+    loops = boundary.end == End.ATTITUDE and is_tall
+    share_max = TALL_SHARE_MAX if loops else HEADING_SHARE_MAX
+    gentle = () if boundary.end == End.LEVEL else (TALL_SHARE_MAX, *GENTLE_SHARES)[not loops :]
+    shares = tuple(dict.fromkeys((*gentle, PLANNED / kept, PLANNED, 1.0)))
+    takeover = takeover_factor(gyrostat.axes) if one_stops else 1.0
+    for share, divisor in [
+        (fraction, each) for each in dict.fromkeys((takeover, 1.0)) for fraction in shares
+    ]:
+        usable = line.divided(divisor).reserved(share)
+        planned = least_power_turn(boundary, gyrostat, usable, one_stops=divisor > 1.0)
         if not planned.failure:
             break
     else:
-        return _refused(maneuver, asked, gyrostat, line, planned)
+        return _unplanned(maneuver, boundary, gyrostat, line, planned)
     trajectory, note = planned.trajectory, ""
-    if left != grows:
-        share, note = share * grows, _TOO_MUCH_FOR_OTHERS
+    if divisor != takeover:
+        share, note = share * takeover, _TOO_MUCH_FOR_OTHERS
     elif share == 1.0:
         note = f"the turn takes more than {PLANNED:.1%} of voltage, current or power"
     if gyrostat.stands:
-        trajectory = _balanced(gyrostat, line, asked.duration, trajectory)
-        if spun:
+        trajectory = _with_balancing(gyrostat, line, boundary.duration, trajectory)
+        if braked_speed:
             text = (
-                f"the wheels are stopped from {rpm(spun)} by brakes, which are neither "
+                f"the wheels are stopped from {rpm(braked_speed)} by brakes, which are neither "
                 "designed nor included in the mass"
             )
             note = "; ".join(filter(None, (text, note)))
-    elif asked.end != End.LEVEL:
+    elif boundary.end != End.LEVEL:
         # The feedback that holds the trunk level does not correct the heading.
         trajectory = replace(trajectory, gains=tracking_gains(gyrostat, line, trajectory, share))
-    return Reference(replace(trajectory, note=note), note, share=share, most=most, spun=spun)
+    return Reference(
+        replace(trajectory, note=note),
+        note,
+        share=share,
+        share_max=share_max,
+        braked_speed=braked_speed,
+    )
 
 
-def _refused(
-    maneuver: Maneuver, asked: Boundary, gyrostat: Gyrostat, line: DriveLine, planned: Planned
+def _unplanned(
+    maneuver: Maneuver, boundary: Boundary, gyrostat: Gyrostat, line: DriveLine, planned: Planned
 ) -> Reference:
     """Why there is no plan, and what would do; `planned` is the last one that failed."""
     if maneuver.estimated and not gyrostat.stands:
-        needed = quickest(asked, gyrostat, line)
+        time_ratio = least_time_ratio(boundary, gyrostat, line)
         text = f"not even in {LONGEST:g} times that"
-        if needed is not None:
-            text = f"they need {needed * asked.duration:.3g} s"
-        note = f"the wheels cannot make this turn in {asked.duration:.3g} s: {text}"
-        return Reference(None, note, needed)
+        if time_ratio is not None:
+            text = f"they need {time_ratio * boundary.duration:.3g} s"
+        note = f"the wheels cannot make this turn in {boundary.duration:.3g} s: {text}"
+        return Reference(None, note, time_ratio)
     if gyrostat.stands:
         # Largest fraction of the tilt from which it stands up in time, by bisection to 1/16.
         low, high = 0.0, 1.0
         for _ in range(4):
-            part = 0.5 * (low + high)
-            smaller = np.sin(0.5 * part * asked.angle) / np.sin(0.5 * asked.angle)
-            tried = replace(
-                asked,
+            tilt_fraction = 0.5 * (low + high)
+            rate_ratio = np.sin(0.5 * tilt_fraction * boundary.angle) / np.sin(0.5 * boundary.angle)
+            smaller_tilt = replace(
+                boundary,
                 attitude=product(
-                    from_axis_angle(asked.axis, -part * asked.angle), asked.final_attitude
+                    from_axis_angle(boundary.axis, -tilt_fraction * boundary.angle),
+                    boundary.final_attitude,
                 ),
-                angle=part * asked.angle,
-                rate=smaller * asked.rate,
+                angle=tilt_fraction * boundary.angle,
+                rate=rate_ratio * boundary.rate,
             )
-            low, high = (low, part) if gentlest(tried, gyrostat, line).failure else (part, high)
-        part, tilt = low, abs(float(asked.angle))
-        all_of_it, less = (format_quantity(each, "deg") for each in (tilt, part * tilt))
-        text = f"from {less} they can" if part > 0.0 else "not even from a sixteenth of that"
-        note = f"the wheels cannot stand it up from {all_of_it} in {asked.duration:.3g} s: {text}"
-        return Reference(None, note, part=part)
+            low, high = (
+                (low, tilt_fraction)
+                if least_power_turn(smaller_tilt, gyrostat, line).failure
+                else (tilt_fraction, high)
+            )
+        tilt_fraction, tilt = low, abs(float(boundary.angle))
+        full, reduced = (format_quantity(each, "deg") for each in (tilt, tilt_fraction * tilt))
+        text = (
+            f"from {reduced} they can"
+            if tilt_fraction > 0.0
+            else "not even from a sixteenth of that"
+        )
+        note = f"the wheels cannot stand it up from {full} in {boundary.duration:.3g} s: {text}"
+        return Reference(None, note, tilt_fraction=tilt_fraction)
     return Reference(None, f"no optimal turn was found ({planned.failure})")
 
 
-def _balanced(
+def _with_balancing(
     gyrostat: Gyrostat, line: DriveLine, duration: float, planned: Trajectory | None = None
 ) -> Trajectory:
     """Hold upright on a pivot after the plan, for `HELD_ON` times as long, wheels to rest."""
     wheels, start_time = gyrostat.axes.shape[1], 0.0 if planned is None else planned.time[-1]
     until = (1.0 + HELD_ON) * duration
     # The plan applies until then.
-    time = start_time + np.array([_AT_ONCE, BALANCE_STEP])
-    none, upright = np.zeros((len(time), 3)), np.tile(gyrostat.upright, (len(time), 1))
+    time = start_time + np.array([_BALANCE_DELAY, BALANCE_STEP])
+    zeros, upright = np.zeros((len(time), 3)), np.tile(gyrostat.upright, (len(time), 1))
     held = Trajectory(
         time=time,
         vertical=scaled_vertical(upright),
-        rate=none,
-        acceleration=none,
+        rate=zeros,
+        acceleration=zeros,
         wheel_speed=np.zeros((len(time), wheels)),
         wheel_torque=np.zeros((len(time), wheels)),
         note="",
@@ -294,8 +314,8 @@ def _balanced(
     return replace(held, gains=gains, time=np.append(held.time[:-1], until))
 
 
-def gentlest(
-    asked: Boundary,
+def least_power_turn(
+    boundary: Boundary,
     gyrostat: Gyrostat,
     line: DriveLine,
     intervals: int = INTERVALS,
@@ -308,15 +328,15 @@ def gentlest(
     is required at the end about an axis that the wheels do not control. `one_stops`: see `Phase`.
     """
     # Wheels of one axis cannot command a heading; wheels of two change it by a loop of the tilt.
-    if asked.end == End.ATTITUDE and gyrostat.spanned == 1:
-        asked = replace(asked, end=End.LEVEL)
-    about_axis = Phase(asked, gyrostat, one_stops=one_stops)
+    if boundary.end == End.ATTITUDE and gyrostat.axis_rank == 1:
+        boundary = replace(boundary, end=End.LEVEL)
+    about_axis = Phase(boundary, gyrostat, one_stops=one_stops)
     start = about_axis.outline.attitude
-    w, x, y, z = product(conjugate(start), asked.final_attitude)
+    w, x, y, z = product(conjugate(start), boundary.final_attitude)
     heading = remainder(2.0 * np.arctan2(z, w), 2.0 * np.pi)
     guesses = [about_axis]
-    loops = asked.end == End.ATTITUDE and gyrostat.spanned < len(gyrostat.inertia)
-    if loops and abs(heading) >= _SAME:
+    loops = boundary.end == End.ATTITUDE and gyrostat.axis_rank < len(gyrostat.inertia)
+    if loops and abs(heading) >= _NO_HEADING:
         # Try both ways round; the turn is a swing without heading, followed by a twist about z.
         w, x, y, z = product(
             np.array([w, x, y, z]), from_axis_angle(np.array([0.0, 0.0, 1.0]), -heading)
@@ -326,73 +346,73 @@ def gentlest(
         guesses = [
             replace(about_axis, guess=loop.motion(gyrostat, intervals))
             for initial_direction in (0.0, np.pi)
-            for loop in [HeadingLoop(start, swing, heading, initial_direction, asked.duration)]
+            for loop in [HeadingLoop(start, swing, heading, initial_direction, boundary.duration)]
         ]
-    found = []
+    candidates = []
     for turn in guesses:
         solution = solve([turn], line, (intervals,))
         flight = fly(turn, line, solution.motions[0])
-        found.append(Planned(**vars(flight), solution=solution))
-    best = min(found, key=lambda planned: (planned.failure != "", planned.solution.cost))
-    alike = 0 if one_stops or np.ndim(asked.wheel_speed) else _wheels_alike(gyrostat)
-    if not best.failure or alike < 2:
+        candidates.append(Planned(**vars(flight), solution=solution))
+    best = min(candidates, key=lambda planned: (planned.failure != "", planned.solution.cost))
+    per_axis = 0 if one_stops or np.ndim(boundary.wheel_speed) else _wheels_per_axis(gyrostat)
+    if not best.failure or per_axis < 2:
         return best
     # Wheels of one axis share evenly, but the program may fail in what they can do against each
     # other: it is solved with one wheel for all of an axis.
-    whole = replace(
+    merged = replace(
         gyrostat,
-        axes=gyrostat.axes[:, : gyrostat.axes.shape[1] // alike],
-        spin_inertia=alike * gyrostat.spin_inertia,
-        armature=alike * gyrostat.armature,
+        axes=gyrostat.axes[:, : gyrostat.axes.shape[1] // per_axis],
+        spin_inertia=per_axis * gyrostat.spin_inertia,
+        armature=per_axis * gyrostat.armature,
     )
-    stronger = replace(
+    merged_line = replace(
         line,
-        stall_torque=alike * line.stall_torque,
-        torque_limit=alike * line.torque_limit,
-        power_max=alike * line.power_max,
+        stall_torque=per_axis * line.stall_torque,
+        torque_limit=per_axis * line.torque_limit,
+        power_max=per_axis * line.power_max,
     )
-    planned = gentlest(asked, whole, stronger, intervals)
+    planned = least_power_turn(boundary, merged, merged_line, intervals)
     if planned.failure:
         return best
-    flown, steps = planned.trajectory, planned.trajectory.step_torque
-    shared = replace(
-        flown,
-        wheel_speed=np.tile(flown.wheel_speed, alike),
-        wheel_torque=np.tile(flown.wheel_torque, alike) / alike,
-        step_torque=None if steps is None else np.tile(steps, alike) / alike,
+    trajectory, steps = planned.trajectory, planned.trajectory.step_torque
+    split = replace(
+        trajectory,
+        wheel_speed=np.tile(trajectory.wheel_speed, per_axis),
+        wheel_torque=np.tile(trajectory.wheel_torque, per_axis) / per_axis,
+        step_torque=None if steps is None else np.tile(steps, per_axis) / per_axis,
     )
-    return replace(planned, trajectory=shared)
+    return replace(planned, trajectory=split)
 
 
-def _wheels_alike(gyrostat: Gyrostat) -> int:
+def _wheels_per_axis(gyrostat: Gyrostat) -> int:
     """Number of wheels on each axis, if the axes are those of equal groups one after the other."""
     axes = gyrostat.axes
     wheels = int(axes.shape[1])
-    for different in range(1, wheels):
-        alike, rest = divmod(wheels, different)
-        if not rest and np.array_equal(np.tile(axes[:, :different], alike), axes):
-            return alike
+    for axis_count in range(1, wheels):
+        per_axis, rest = divmod(wheels, axis_count)
+        if not rest and np.array_equal(np.tile(axes[:, :axis_count], per_axis), axes):
+            return per_axis
     return 1
 
 
-def quickest(asked: Boundary, gyrostat: Gyrostat, line: DriveLine) -> float | None:
+def least_time_ratio(boundary: Boundary, gyrostat: Gyrostat, line: DriveLine) -> float | None:
     """Least time of the turn, relative to the time given, to within `TIME_STEP`, by bisection.
 
     The time given is assumed too short. None: not even `LONGEST` times that is enough.
     """
-    short, enough = 1.0, 1.0 + TIME_STEP
+    too_short, enough = 1.0, 1.0 + TIME_STEP
 
     def fails(factor: float) -> bool:
-        lasting = replace(asked, duration=factor * asked.duration)
-        return gentlest(lasting, gyrostat, line).failure != ""
+        longer = replace(boundary, duration=factor * boundary.duration)
+        return least_power_turn(longer, gyrostat, line).failure != ""
 
     while fails(enough):
-        short, enough = enough, 1.0 + 2.0 * (enough - 1.0)
+        too_short, enough = enough, 1.0 + 2.0 * (enough - 1.0)
         if enough > LONGEST:
             return None
-    while enough > (1.0 + TIME_STEP) * short:
-        middle = 0.5 * (short + enough)
-        short, enough = (middle, enough) if fails(middle) else (short, middle)
+    while enough > (1.0 + TIME_STEP) * too_short:
+        middle = 0.5 * (too_short + enough)
+        too_short, enough = (middle, enough) if fails(middle) else (too_short, middle)
     return enough
 
 
@@ -400,11 +420,11 @@ def gyrostat_of(
     robot: MassProperties, device: "Device", maneuver: Maneuver | None = None
 ) -> Gyrostat:
     """Robot and device as a rigid trunk with its wheels, about a pivot if the maneuver has one."""
-    whole, figures = device.on(robot), (device.axes, device.flywheel.spin_inertia)
+    total, figures = device.on(robot), (device.axes, device.flywheel.spin_inertia)
     if maneuver is None:
-        return Gyrostat(whole.inertia, *figures, device.motor.armature)
-    inertia, pull, edge = maneuver.freedom(whole)
-    return Gyrostat(inertia, *figures, device.motor.armature, pull, edge)
+        return Gyrostat(total.inertia, *figures, device.motor.armature)
+    inertia, gravity_moment, edge = maneuver.freedom(total)
+    return Gyrostat(inertia, *figures, device.motor.armature, gravity_moment, edge)
 
 
 def drive_line_of(device: "Device") -> DriveLine:

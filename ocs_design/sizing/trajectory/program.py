@@ -65,7 +65,7 @@ POWER_EFFORT = 0.2
 
 Minimising power alone would put the torque at its limit wherever the wheels are slow."""
 
-_ONE_AT_A_TIME = Lock()
+_PROGRAM_LOCK = Lock()
 """A cached program holds the numbers of the turn that it is solving."""
 
 
@@ -153,7 +153,7 @@ def _solve(
     if dimensions is None:
         # One turn of a fixed device, by the cached program of its structure.
         turn, guess = turns[0], guesses[0]
-        with _ONE_AT_A_TIME:
+        with _PROGRAM_LOCK:
             numbers = numbers_of(turn, Plant.of(turn.gyrostat), line, guess)
             values = {name: ca.sparsify(ca.evalf(each)) for name, each in numbers.items()}
             patterns = ((name, tuple(each.sparsity().compress())) for name, each in values.items())
@@ -161,27 +161,27 @@ def _solve(
             program, parameters, variables = _plan_program(structure, tuple(patterns))
             for name, parameter in parameters.items():
                 program.set_value(parameter, values[name].nonzeros())
-            variables.begin(program, turn, guess, values)
+            variables.set_initial_guess(program, turn, guess, values)
             return _solved(program, [variables], [guess], ca.MX(0, 1))
     program = ca.Opti()
-    free = program.variable(len(dimensions.start))
-    program.set_initial(free, dimensions.start)
-    program.subject_to(program.bounded(dimensions.lower, free, dimensions.upper))
+    dimension = program.variable(len(dimensions.start))
+    program.set_initial(dimension, dimensions.start)
+    program.subject_to(program.bounded(dimensions.lower, dimension, dimensions.upper))
     if dimensions.excess is not None:
-        program.subject_to(dimensions.excess(free) <= 0.0)
-    objective, found = dimensions.objective(free), []
+        program.subject_to(dimensions.excess(dimension) <= 0.0)
+    objective, all_variables = dimensions.objective(dimension), []
     for turn, guess in zip(turns, guesses, strict=True):
-        plant = Plant.of(turn.gyrostat) if turn.plant is None else turn.plant(free)
+        plant = Plant.of(turn.gyrostat) if turn.plant is None else turn.plant(dimension)
         structure = ProgramStructure.of(turn, line, guess)
         numbers = numbers_of(turn, plant, line, guess)
         variables = transcribe(program, structure, numbers)
-        variables.begin(program, turn, guess, numbers)
+        variables.set_initial_guess(program, turn, guess, numbers)
         objective += EFFORT_WEIGHT * variables.effort
-        found.append(variables)
+        all_variables.append(variables)
     program.minimize(objective)
     # A flat graph would be quicker, but splines of the dimensions cannot be expanded.
     program.solver("ipopt", IPOPT_OPTIONS | _options(guessed=turns[0].guess is not None))
-    return _solved(program, found, guesses, free)
+    return _solved(program, all_variables, guesses, dimension)
 
 
 @lru_cache(maxsize=16)
@@ -227,7 +227,10 @@ def _options(*, guessed: bool) -> dict[str, Any]:
 
 
 def _solved(
-    program: ca.Opti, found: Sequence[Variables], guesses: Sequence[Motion], free: ca.MX
+    program: ca.Opti,
+    all_variables: Sequence[Variables],
+    guesses: Sequence[Motion],
+    dimension: ca.MX,
 ) -> Solution:
     """Solution of a program by IPOPT."""
     try:
@@ -245,9 +248,9 @@ def _solved(
                 np.array(value(each.scaled_states), ndmin=2),
                 np.array(value(each.scaled_torques), ndmin=2),
             )
-            for guess, each in zip(guesses, found, strict=True)
+            for guess, each in zip(guesses, all_variables, strict=True)
         ),
-        dimensions=np.array(value(free), ndmin=1),
+        dimensions=np.array(value(dimension), ndmin=1),
         solved=bool(stats["success"]),
         status=str(stats["return_status"]),
         iterations=int(stats["iter_count"]),

@@ -13,17 +13,17 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 from ocs_design.sizing.trajectory.motion import Trajectory
 
-ON_THE_WAY = np.radians(2.0)
+ERROR_DURING_TURN = np.radians(2.0)
 """Attitude error during the turn at which the regulator uses all torque that the plan leaves
 [rad]."""
 
-AT_THE_END = np.radians(0.3)
+TILT_AT_END = np.radians(0.3)
 """Tilt at the end that weighs as much as using this torque for the whole time [rad]."""
 
-HEADING_AT_THE_END = np.radians(2.0)
+HEADING_AT_END = np.radians(2.0)
 """The same for a heading, which is corrected by a tilt that must be undone in time [rad]."""
 
-AT_REST = 0.2
+BALANCING_SPEED = 0.2
 """Wheel speed, relative to the no-load speed, that weighs as much when balancing upright."""
 
 
@@ -35,11 +35,11 @@ def tracking_gains(
     The motors get the planned torque minus gain times error: attitude as the rotation vector from
     the plan in B [rad], rate in B [rad/s], wheel speeds [rad/s]. Discrete Riccati equation from the
     last sample backwards (Anderson and Moore, Optimal Control, 1990, section 2.4). Weights by
-    Bryson's rule: `ON_THE_WAY`, `AT_THE_END` and `HEADING_AT_THE_END` against the torque that a
+    Bryson's rule: `ERROR_DURING_TURN`, `TILT_AT_END` and `HEADING_AT_END` against the torque that a
     plan leaves to the feedback. Rates at the end are weighted by the angle that they would turn in
     the time constant of the first two. About a pivot, the robot has to be held indefinitely after
     the plan: there the final value is that of the steady-state regulator, all torque is available,
-    and wheels at `AT_REST` weigh as much as `ON_THE_WAY`, so that they come to rest.
+    and wheels at `BALANCING_SPEED` weigh as much as `ERROR_DURING_TURN`, so that they come to rest.
 
     Args:
         gyrostat: robot and device. line: of the drives, without reserve.
@@ -56,41 +56,44 @@ def tracking_gains(
     middle = 0.5 * (system[1:] + system[:-1])
     discrete = expm(middle * steps[:, None, None])
 
-    spare = line.torque_limit if np.isfinite(line.torque_limit) else line.stall_torque
-    if not np.isfinite(spare):
-        spare = float(np.abs(trajectory.wheel_torque).max())
+    spare_torque = line.torque_limit if np.isfinite(line.torque_limit) else line.stall_torque
+    if not np.isfinite(spare_torque):
+        spare_torque = float(np.abs(trajectory.wheel_torque).max())
     if not gyrostat.stands:
-        spare *= 1.0 - min(share, PLANNED)
-    effort = np.eye(wheels) / spare**2
+        spare_torque *= 1.0 - min(share, PLANNED)
+    effort = np.eye(wheels) / spare_torque**2
     gains = np.zeros((count, wheels, size))
     if gyrostat.stands:
         # The heading is not controlled.
-        about = gyrostat.turns_about
+        about = gyrostat.controlled_axes
         about = about[np.abs(about[:, 2]) < 1.0]
-        running = np.zeros((size, size))
-        running[:3, :3] = about.T @ about * ON_THE_WAY**-2.0
-        running[6:, 6:] = np.eye(wheels) * (AT_REST * line.no_load_speed) ** -2.0
-        free = np.zeros((size, 2 * len(about) + wheels))
-        free[:6, : 2 * len(about)] = np.kron(np.eye(2), about.T)
-        free[6:, 2 * len(about) :] = np.eye(wheels)
-        last = free.T @ discrete[-1, :size, :size] @ free, free.T @ discrete[-1, :size, size:]
-        weights = free.T @ running @ free * steps[-1], effort * steps[-1]
-        value = free @ solve_discrete_are(*last, *weights) @ free.T
+        weight_during = np.zeros((size, size))
+        weight_during[:3, :3] = about.T @ about * ERROR_DURING_TURN**-2.0
+        weight_during[6:, 6:] = np.eye(wheels) * (BALANCING_SPEED * line.no_load_speed) ** -2.0
+        basis = np.zeros((size, 2 * len(about) + wheels))
+        basis[:6, : 2 * len(about)] = np.kron(np.eye(2), about.T)
+        basis[6:, 2 * len(about) :] = np.eye(wheels)
+        last_step = (
+            basis.T @ discrete[-1, :size, :size] @ basis,
+            basis.T @ discrete[-1, :size, size:],
+        )
+        weights = basis.T @ weight_during @ basis * steps[-1], effort * steps[-1]
+        value = basis @ solve_discrete_are(*last_step, *weights) @ basis.T
     else:
         # Bandwidth of a double integrator under these weights, `omega^4 = q / r g^2`.
         authority = np.abs(inverse[:3, 3:]).max()
-        quickness = np.sqrt(spare * authority / ON_THE_WAY)
-        running = np.diag([ON_THE_WAY**-2.0] * 3 + [0.0] * (3 + wheels))
-        at_end = AT_THE_END**-2.0 * trajectory.time[-1]
-        heading = HEADING_AT_THE_END**-2.0 * trajectory.time[-1]
-        rates = [at_end / quickness**2] * 3
+        bandwidth = np.sqrt(spare_torque * authority / ERROR_DURING_TURN)
+        weight_during = np.diag([ERROR_DURING_TURN**-2.0] * 3 + [0.0] * (3 + wheels))
+        at_end = TILT_AT_END**-2.0 * trajectory.time[-1]
+        heading = HEADING_AT_END**-2.0 * trajectory.time[-1]
+        rates = [at_end / bandwidth**2] * 3
         value = np.diag([at_end, at_end, heading, *rates] + [0.0] * wheels)
     for k in range(count - 2, -1, -1):
-        free, driven = discrete[k, :size, :size], discrete[k, :size, size:]
-        weighed = driven.T @ value
-        gains[k] = np.linalg.solve(effort * steps[k] + weighed @ driven, weighed @ free)
-        closed = free - driven @ gains[k]
-        value = running * steps[k] + free.T @ value @ closed
+        transition, driven = discrete[k, :size, :size], discrete[k, :size, size:]
+        weighted = driven.T @ value
+        gains[k] = np.linalg.solve(effort * steps[k] + weighted @ driven, weighted @ transition)
+        closed = transition - driven @ gains[k]
+        value = weight_during * steps[k] + transition.T @ value @ closed
         value = 0.5 * (value + value.T)
     gains[-1] = gains[-2]
     return gains
@@ -116,17 +119,17 @@ def linearised(
             pivot: its torque u x m g l changes by `-m g l x (u x e)`.
     """
     mass, wheels = gyrostat.mass_matrix, wheel_speed.shape[1]
-    inverse, turning = gyrostat.inverse_mass_matrix, _cross_matrix(rate)
+    inverse, rate_cross = gyrostat.inverse_mass_matrix, _cross_matrix(rate)
     momentum = rate @ mass[:3, :3].T + wheel_speed @ mass[:3, 3:].T
-    gyroscopic = turning @ mass[:3]
+    gyroscopic = rate_cross @ mass[:3]
     gyroscopic[:, :, :3] -= _cross_matrix(momentum)
     system = np.zeros((len(rate), 6 + wheels, 6 + 2 * wheels))
-    system[:, :3, :3] = -turning
+    system[:, :3, :3] = -rate_cross
     system[:, :3, 3:6] = np.eye(3)
     system[:, 3:, 3 : 6 + wheels] = -inverse[:, :3] @ gyroscopic
     system[:, 3:, 6 + wheels :] = inverse[:, 3:]
     if vertical is not None and gyrostat.stands:
-        tilting = _cross_matrix(gyrostat.pull[None]) @ _cross_matrix(vertical)
+        tilting = _cross_matrix(gyrostat.gravity_moment[None]) @ _cross_matrix(vertical)
         system[:, 3:, :3] = -inverse[:, :3] @ tilting
     return system
 

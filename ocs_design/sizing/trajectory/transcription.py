@@ -18,9 +18,9 @@ from ocs_design.requirement.boundary import Boundary, End
 from ocs_design.sizing.trajectory.collocation import DEGREE, TORQUE_DEGREE
 from ocs_design.sizing.trajectory.equations import (
     after_push,
+    end_violation,
     interval,
-    left_power,
-    missed,
+    remaining_power,
     start_of,
 )
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat, shared_by_others
@@ -59,7 +59,7 @@ class Phase:
     """One maneuver in the program.
 
     Attributes:
-        asked: its boundary value problem.
+        boundary: its boundary value problem.
         gyrostat: robot and device at the start of the search, at the maneuver's incidence.
         plant: the same as a function of the dimensions, (m, 1); None: fixed.
         guess: initial guess; None: a turn about a fixed axis.
@@ -67,7 +67,7 @@ class Phase:
             stopped at the start or halfway.
     """
 
-    asked: Boundary
+    boundary: Boundary
     gyrostat: Gyrostat
     plant: Callable[[ca.MX], Plant] | None = None
     guess: Motion | None = None
@@ -76,8 +76,8 @@ class Phase:
     @cached_property
     def outline(self) -> FixedAxisTurn:
         """The turn about a fixed axis that starts like the maneuver."""
-        start = after_push(self.asked)(self.gyrostat.inertia)
-        return FixedAxisTurn.of(self.asked, *(np.asarray(part).ravel() for part in start))
+        start = after_push(self.boundary)(self.gyrostat.inertia)
+        return FixedAxisTurn.of(self.boundary, *(np.asarray(part).ravel() for part in start))
 
 
 class ProgramStructure(NamedTuple):
@@ -115,11 +115,11 @@ class ProgramStructure(NamedTuple):
         return cls(
             wheels=len(guess.torques),
             intervals=len(guess.lengths),
-            end=turn.asked.end,
+            end=turn.boundary.end,
             stands=gyrostat.stands,
             on_edge=gyrostat.edge is not None,
-            axes_at_rest=len(gyrostat.turns_about),
-            axes_of_tilt=len(_righted(turn.asked, gyrostat)),
+            axes_at_rest=len(gyrostat.controlled_axes),
+            axes_of_tilt=len(_tilt_directions(turn.boundary, gyrostat)),
             guessed=turn.guess is not None,
             torque_limited=isfinite(float(line.torque_limit)),
             speed_limited=not back_emf or float(line.speed_max) < float(line.no_load_speed),
@@ -131,36 +131,36 @@ class ProgramStructure(NamedTuple):
 
 def numbers_of(turn: Phase, plant: Plant, line: DriveLine, guess: Motion) -> dict[str, ca.MX]:
     """All numbers of a turn's equations, by name."""
-    asked, outline, gyrostat = turn.asked, turn.outline, turn.gyrostat
+    boundary, outline, gyrostat = turn.boundary, turn.outline, turn.gyrostat
     wheels = len(guess.torques)
     # Scaled to be around one: speeds by the no-load speed; torques by the current limit, else by
     # the stall torque, else by the turn's demand.
-    angle, fast, time = abs(outline.angle), abs(outline.rate), outline.duration
-    peak = (6.0 * angle / time + 4.0 * fast) / time
+    angle, initial_rate, time = abs(outline.angle), abs(outline.rate), outline.duration
+    peak = (6.0 * angle / time + 4.0 * initial_rate) / time
     demand = peak * float(np.linalg.eigvalsh(gyrostat.inertia)[-1])
     limits = (float(line.torque_limit), float(line.stall_torque), demand)
     torque_unit, speed_unit = next(filter(isfinite, limits)), float(line.no_load_speed)
-    weight = float(np.linalg.norm(gyrostat.pull)) * asked.duration
+    weight = float(np.linalg.norm(gyrostat.gravity_moment)) * boundary.duration
     scale = np.concatenate([np.ones(4), np.full(wheels, speed_unit), np.full(3, weight)])
-    attitude, figures = start_of(asked, gyrostat)(*plant)
+    attitude, figures = start_of(boundary, gyrostat)(*plant)
     slope = 1.0 / float(line.stall_torque)
-    own = ca.vertcat(outline.axis, slope * speed_unit, gyrostat.pull)
+    constants = ca.vertcat(outline.axis, slope * speed_unit, gyrostat.gravity_moment)
     numbers: dict[str, Any] = {
         "scale": scale[: len(guess.states)],
         "torque_unit": torque_unit,
         "speed_unit": speed_unit,
         "lengths": guess.lengths,
-        "duration": asked.duration,
+        "duration": boundary.duration,
         "attitude": attitude,
-        "speed": np.broadcast_to(np.asarray(asked.wheel_speed) / speed_unit, (wheels,)),
-        "figures": ca.vertcat(figures, own),
+        "speed": np.broadcast_to(np.asarray(boundary.wheel_speed) / speed_unit, (wheels,)),
+        "figures": ca.vertcat(figures, constants),
         "momentum": figures[-3:] / weight if gyrostat.stands else 0.0,
-        "at_rest": gyrostat.turns_about.T,
+        "at_rest": gyrostat.controlled_axes.T,
         # A trunk that need not turn has no rate to scale by.
-        "rate_unit": max(1.5 * angle / time, fast) or 1.0 / time,
-        "final": asked.final_attitude,
-        "up": asked.final_vertical,
-        "righted": _righted(asked, gyrostat),
+        "rate_unit": max(1.5 * angle / time, initial_rate) or 1.0 / time,
+        "final": boundary.final_attitude,
+        "up": boundary.final_vertical,
+        "righted": _tilt_directions(boundary, gyrostat),
         "angle": outline.angle,
         "slope": slope * torque_unit if isfinite(float(line.stall_torque)) else 0.0,
         "torque_most": line.torque_limit / torque_unit if isfinite(line.torque_limit) else 0.0,
@@ -198,7 +198,7 @@ class Variables:
     effort: ca.MX
     peak: ca.MX | None
 
-    def begin(
+    def set_initial_guess(
         self, program: ca.Opti, turn: Phase, guess: Motion, numbers: Mapping[str, ca.MX | ca.DM]
     ) -> None:
         """Set the initial guess of the search."""
@@ -244,10 +244,10 @@ def transcribe(
     for k in range(structure.axes_at_rest):
         program.subject_to(numbers["at_rest"][:, k].T @ mapped["rates"][:, -1] / rate_unit == 0.0)
     if structure.end != End.AT_REST:
-        whole = structure.end == End.ATTITUDE and not structure.on_edge
+        full_turn = structure.end == End.ATTITUDE and not structure.on_edge
         ending = numbers["final"], numbers["up"], numbers["righted"]
         program.subject_to(
-            missed(structure.axes_of_tilt, whole=whole)(states[:4, -1], *ending) == 0.0
+            end_violation(structure.axes_of_tilt, whole=full_turn)(states[:4, -1], *ending) == 0.0
         )
     # Accumulated step by step: a single sum would be a dense row, which slows down Jacobians.
     program.subject_to(turned == ca.horzcat(ca.MX(0.0), turned[:-1]) + mapped["swept"])
@@ -270,15 +270,15 @@ def transcribe(
         peak, power = program.variable(), ca.vec(mapped["power"]) / numbers["power_most"]
         program.subject_to(program.bounded(0.0, peak, 1.0))
         if structure.one_stops:
-            left = _powers_left(structure, numbers, mapped, scaled)
-            power = ca.vertcat(power, left / numbers["power_most"])
+            after_failure = _powers_after_failure(structure, numbers, mapped, scaled)
+            power = ca.vertcat(power, after_failure / numbers["power_most"])
         program.subject_to(power - peak <= 0.0)
         program.subject_to(power + peak >= 0.0)
     effort = ca.sum(mapped["effort"]) / (torque_unit**2 * duration)
     return Variables(states, torques, turned, scaled, torques * torque_unit, effort, peak)
 
 
-def _powers_left(
+def _powers_after_failure(
     structure: ProgramStructure,
     numbers: Mapping[str, ca.MX],
     mapped: Mapping[str, ca.MX],
@@ -291,29 +291,32 @@ def _powers_left(
     it keeps, so the extremes count: for a turn from rest to rest these are at the start, with none,
     and halfway.
     """
-    wheels, count, found = structure.wheels, structure.intervals, []
-    by_interval = left_power(wheels)
+    wheels, count, powers = structure.wheels, structure.intervals, []
+    by_interval = remaining_power(wheels)
     for wheel in range(wheels):
         shared = numbers[f"shared {wheel}"]
-        for stopped in (0, count // 2):
-            speed, later = scaled[4 : 4 + wheels, stopped * DEGREE], count - stopped
-            columns = slice(stopped * (DEGREE + 1), None)
-            power = by_interval.map(later)(
+        for interval_of_failure in (0, count // 2):
+            speed, intervals_left = (
+                scaled[4 : 4 + wheels, interval_of_failure * DEGREE],
+                count - interval_of_failure,
+            )
+            columns = slice(interval_of_failure * (DEGREE + 1), None)
+            power = by_interval.map(intervals_left)(
                 mapped["speeds"][:, columns],
                 mapped["elevated"][:, columns],
-                ca.repmat(shared, 1, later),
-                ca.repmat(speed - shared @ speed, 1, later),
-                ca.repmat(numbers["copper"], 1, later),
+                ca.repmat(shared, 1, intervals_left),
+                ca.repmat(speed - shared @ speed, 1, intervals_left),
+                ca.repmat(numbers["copper"], 1, intervals_left),
             )
-            found.append(ca.vec(power))
-    return ca.vertcat(*found)
+            powers.append(ca.vec(power))
+    return ca.vertcat(*powers)
 
 
-def _righted(asked: Boundary, gyrostat: Gyrostat) -> FloatArray:
+def _tilt_directions(boundary: Boundary, gyrostat: Gyrostat) -> FloatArray:
     """Directions in B along which the vertical must match the final one, shape (k, 3)."""
-    up = asked.final_vertical
+    up = boundary.final_vertical
     if gyrostat.edge is not None:
         return np.cross(gyrostat.edge, up)[None]
     # A turn about pitch moves the vertical along the first, one about roll along the second.
     along_pitch, lateral = np.cross([0.0, 1.0, 0.0], up), np.array([0.0, 1.0, 0.0])
-    return np.array([lateral, along_pitch])[gyrostat.reach[:2]]
+    return np.array([lateral, along_pitch])[gyrostat.controlled[:2]]

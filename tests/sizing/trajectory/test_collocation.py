@@ -76,7 +76,7 @@ def _motion(torque, intervals):
 def test_a_polynomial_motion_is_kept_on_other_intervals():
     motion = _motion(PARABOLA, 5)
     lengths = np.array([0.3, 0.5, 0.1, 1.1])
-    moved = motion.onto(lengths)
+    moved = motion.on_intervals(lengths)
     times = np.linspace(0.0, 2.0, 57)
     np.testing.assert_allclose(moved.state_at(times)[3], CUBIC(times), rtol=1e-10)
     np.testing.assert_allclose(moved.torque_at(times)[1], PARABOLA(times), rtol=0, atol=1e-5)

@@ -15,7 +15,7 @@ from ocs_design.requirement.turns import Catch, TurnTo
 from ocs_design.sizing.trajectory.collocation import TORQUE_DEGREE
 from ocs_design.sizing.trajectory.flight import FINER
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
-from ocs_design.sizing.trajectory.plans import INTERVALS, gentlest
+from ocs_design.sizing.trajectory.plans import INTERVALS, least_power_turn
 
 SCRIPT = Path(__file__).parents[2] / "in_basilisk.py"
 PYTHON = os.environ.get("BASILISK_PYTHON", sys.executable)
@@ -46,7 +46,7 @@ def test_basilisk_agrees_with_a_plan(maneuver, gyrostat):
     if subprocess.run(command, check=False, capture_output=True).returncode:
         pytest.skip("no Basilisk (pip install bsk) in this environment or in BASILISK_PYTHON")
     start = boundary_of(maneuver)
-    planned = gentlest(start, gyrostat, EC_45_FLAT)
+    planned = least_power_turn(start, gyrostat, EC_45_FLAT)
     assert not planned.failure
     trajectory, count = planned.trajectory, FINER * STEPS
     (motion,) = planned.solution.motions

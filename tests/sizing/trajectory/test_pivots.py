@@ -26,7 +26,7 @@ UP = StandUp(name="up", **PLACE, roll=np.radians(36.0), duration=0.4).on(BODY)
 
 def gyrostat(maneuver, spin_inertia):
     figures = (maneuver.inertia, np.eye(3)[:, :1], spin_inertia)
-    return Gyrostat(*figures, pull=maneuver.pull, edge=maneuver.axis)
+    return Gyrostat(*figures, gravity_moment=maneuver.gravity_moment, edge=maneuver.axis)
 
 
 def pendulum(tilt, rate, spin_inertia, trajectory, until):
@@ -79,8 +79,8 @@ def test_the_closed_form_is_near_the_smallest_wheel(time, rpm):
 def test_a_plan_that_fails_says_from_which_tilt_it_would_succeed():
     refused = reference(gyrostat(UP, 3e-4), LINE, UP, 0.1)
     assert refused.trajectory is None
-    assert 0.2 < refused.part < 1.0
-    milder = replace(UP, roll=refused.part * UP.roll)
+    assert 0.2 < refused.tilt_fraction < 1.0
+    milder = replace(UP, roll=refused.tilt_fraction * UP.roll)
     assert reference(gyrostat(milder, 3e-4), LINE, milder, 0.1).trajectory is not None
 
 

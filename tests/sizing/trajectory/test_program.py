@@ -32,7 +32,7 @@ from ocs_design.sizing.trajectory.collocation import SQUARE
 from ocs_design.sizing.trajectory.equations import after_push
 from ocs_design.sizing.trajectory.flight import limit_violation
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
-from ocs_design.sizing.trajectory.plans import gentlest
+from ocs_design.sizing.trajectory.plans import least_power_turn
 from ocs_design.sizing.trajectory.program import solve
 from ocs_design.sizing.trajectory.transcription import Phase
 
@@ -73,7 +73,7 @@ def solved(request):
 
 
 def _planned(gyrostat, maneuver, line=EC_45_FLAT, **options):
-    return gentlest(boundary_of(maneuver), gyrostat, line, **options)
+    return least_power_turn(boundary_of(maneuver), gyrostat, line, **options)
 
 
 def _momentum(gyrostat, path):
@@ -264,7 +264,7 @@ def test_a_tumbling_body_with_spinning_wheels_comes_to_rest():
         rate=np.array([0.3, -0.4, 0.2]),
         wheel_speed=np.array([50.0, -80.0, 20.0]),
     )
-    found = gentlest(start, gyrostat, EC_45_FLAT)
+    found = least_power_turn(start, gyrostat, EC_45_FLAT)
     assert not found.failure
     path = found.trajectory
     assert attitude_error(start, path) < 1e-5
@@ -342,7 +342,7 @@ def test_four_wheels_without_a_plan_use_that_of_an_equivalent_pair(monkeypatch):
         torque_limit=EC_45_FLAT.torque_limit / 2.0,
     )
     turn = boundary_of(drop(20.0, 10.0))
-    found, expected = gentlest(turn, four, weak), gentlest(turn, pair, EC_45_FLAT)
+    found, expected = least_power_turn(turn, four, weak), least_power_turn(turn, pair, EC_45_FLAT)
     assert not found.failure
     path = found.trajectory
     assert attitude_error(turn, path) == pytest.approx(attitude_error(turn, expected.trajectory))

@@ -11,7 +11,13 @@ from ocs_design.device.layout import ISOTROPIC, Layout, LayoutName
 from ocs_design.requirement.turns import TurnTo
 from ocs_design.sizing.trajectory.flight import limit_violation
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
-from ocs_design.sizing.trajectory.plans import GENTLE, PLANNED, SPARE, TALL_SPARE, reference
+from ocs_design.sizing.trajectory.plans import (
+    EXTRA_DEMAND,
+    GENTLE_SHARES,
+    PLANNED,
+    TALL_SHARE_MAX,
+    reference,
+)
 
 FORTY = np.radians(40.0)
 
@@ -129,10 +135,14 @@ def test_the_heading_loop_of_a_tall_body_leaves_larger_margins():
         for inertia in (2e-2, 8e-3):
             gyrostat = Gyrostat(np.diag(shape), axes, inertia)
             found[shape[0], inertia] = reference(gyrostat, line, yaw, STANDING)
-    assert found[3.2, 2e-2].share == TALL_SPARE
-    assert found[0.9, 2e-2].share == GENTLE[0]
-    assert found[3.2, 2e-2].lacking(yaw.end) is None
+    assert found[3.2, 2e-2].share == TALL_SHARE_MAX
+    assert found[0.9, 2e-2].share == GENTLE_SHARES[0]
+    assert found[3.2, 2e-2].missing_demand(yaw.end) is None
     scarce = found[3.2, 8e-3]
     assert scarce.trajectory is not None
-    assert scarce.lacking(yaw.end) == max(SPARE, scarce.share / TALL_SPARE) > SPARE
-    assert found[0.9, 8e-3].lacking(yaw.end) is None
+    assert (
+        scarce.missing_demand(yaw.end)
+        == max(EXTRA_DEMAND, scarce.share / TALL_SHARE_MAX)
+        > EXTRA_DEMAND
+    )
+    assert found[0.9, 8e-3].missing_demand(yaw.end) is None
