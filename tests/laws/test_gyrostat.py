@@ -1,4 +1,4 @@
-"""Free flight of trunk and wheels, geared ones too, against the gyrostat's equations."""
+"""Free flight of trunk and wheels, also behind gears, against the gyrostat's equations."""
 
 from dataclasses import replace
 
@@ -22,7 +22,7 @@ INERTIA = (0.030, 0.0535, 0.068, 0.001, 0.003, -0.002)
 
 
 def floating(inertia=INERTIA, wheels=Wheels.ACTIVE, device=None, duration=1.0) -> World:
-    """A body by hand, without gravity and far from the floor, its law off."""
+    """A body by hand without gravity, far from the floor, with its controller off."""
     builder = WorldBuilder(robot_by_hand(2.5, inertia), device or paper_device())
     world = builder.flight(Drop(name="drop", height=100.0, pitch=0.0), wheels)
     world.model.opt.gravity[:] = 0.0
@@ -47,10 +47,10 @@ def gyrostat_motion(world: World, rate, wheel_speed, torque, times):
         return np.concatenate([w_dot, torque / body.spin_inertia - A.T @ w_dot])
 
     start = np.concatenate([rate, wheel_speed])
-    answer = solve_ivp(
+    solution = solve_ivp(
         slope, (0.0, times[-1]), start, method="DOP853", t_eval=times, rtol=1e-12, atol=1e-12
     )
-    return answer.y[:3].T, answer.y[3:].T
+    return solution.y[:3].T, solution.y[3:].T
 
 
 @pytest.mark.parametrize(
@@ -61,7 +61,7 @@ def gyrostat_motion(world: World, rate, wheel_speed, torque, times):
         ((0.1, 0, 0), (0, 0)),
     ],
 )
-def test_fast_wheels_follow_the_gyrostat_and_keep_momentum(rate, wheel_speed):
+def test_fast_wheels_follow_the_gyrostat_and_conserve_momentum(rate, wheel_speed):
     world = spinning(floating(), rate, wheel_speed)
     recording = simulate([world], hold=5)
     w, W = gyrostat_motion(world, rate, wheel_speed, np.zeros(2), recording.time)
@@ -72,7 +72,7 @@ def test_fast_wheels_follow_the_gyrostat_and_keep_momentum(rate, wheel_speed):
     assert change < 1e-9 * np.linalg.norm(momentum[0])
 
 
-def test_a_symmetric_top_precesses_as_euler_says():
+def test_a_symmetric_top_precesses_as_eulers_equations_say():
     """w_x = w_0 cos(l t), w_y = w_0 sin(l t), l = (I_zz - I_xx) / I_xx w_z."""
     world = spinning(
         floating(inertia=(0.05, 0.05, 0.08), wheels=Wheels.ABSENT), (1.0, 0.0, 7.0), (0.0, 0.0)
@@ -84,9 +84,10 @@ def test_a_symmetric_top_precesses_as_euler_says():
 
 
 @pytest.mark.parametrize("incidence", [0.0, np.radians(40.0)])
-def test_full_torque_there_and_back_turns_the_trunk_as_the_closed_form_says(incidence):
-    """t = 2 sqrt(I_b theta / tau); with xi = I_w / (I_w + I_b) the wheel peaks at 2 theta / (xi t)
-    (docs/theory.md), two wheels at alpha = 0 acting as one of twice the inertia and torque.
+def test_full_torque_and_its_reverse_turn_the_trunk_as_the_closed_form_says(incidence):
+    """t = 2 sqrt(I_b theta / tau), peak wheel speed 2 theta / (xi t) with xi = I_w / (I_w + I_b).
+
+    See docs/theory.md. Two wheels at alpha = 0 act as one of twice the inertia and torque.
     """
     world = floating(inertia=INERTIA[:3], device=paper_device(incidence))
     model, data = world.model, mujoco.MjData(world.model)
@@ -96,7 +97,7 @@ def test_full_torque_there_and_back_turns_the_trunk_as_the_closed_form_says(inci
     cosine = np.cos(incidence)
     inertia = world.body.actuated_inertia[1, 1]
     theta = 2.0 * cosine * torque * (time / 2.0) ** 2 / inertia
-    # At an angle each wheel takes part in the trunk's turn by cos(alpha), and stores by cos(alpha).
+    # At an incidence each wheel turns with the trunk by cos(alpha), and stores by cos(alpha).
     xi = 2.0 * cosine * PAPER_WHEEL.spin_inertia
     xi /= 2.0 * cosine**2 * PAPER_WHEEL.spin_inertia + inertia
     motors = list(world.addresses.motors)
@@ -113,7 +114,7 @@ def test_full_torque_there_and_back_turns_the_trunk_as_the_closed_form_says(inci
 def test_a_saturated_motor_follows_its_voltage_line():
     """W = f w_0 (1 - exp(-t / T)), T = I_red w_0 / tau_s (docs/theory.md, What a motor can do).
 
-    f is the share of the voltage that the law uses.
+    f is the share of the voltage that the controller uses.
     """
     drive = motor(no_load_speed=650.4, stall_torque=1.4566)
     world = floating(device=paper_device(incidence=0.0, drive=drive), duration=0.1)
@@ -123,12 +124,12 @@ def test_a_saturated_motor_follows_its_voltage_line():
     speed = -recording.wheel_speed[:, 0, 0]
     constant = 650.4 / 1.4566 / world.body.wheel_response
     continuous = USED_SHARE * 650.4 * (1.0 - np.exp(-recording.time / constant))
-    held = USED_SHARE * 650.4 * (1.0 - (1.0 + 1e-3 / constant) ** -np.arange(len(speed)))
-    np.testing.assert_allclose(speed, held, rtol=1e-5)
+    discrete = USED_SHARE * 650.4 * (1.0 - (1.0 + 1e-3 / constant) ** -np.arange(len(speed)))
+    np.testing.assert_allclose(speed, discrete, rtol=1e-5)
     np.testing.assert_allclose(speed, continuous, rtol=0, atol=0.01 * 650.4)
 
 
-def test_an_outer_torque_changes_momentum_by_its_impulse():
+def test_an_external_torque_changes_momentum_by_its_impulse():
     world = floating()
     push = replace(
         world.pushes[0], torque=np.array([0.2, 0.8, -0.1]), onset=0.1003, duration=0.0501
@@ -157,11 +158,11 @@ def world(request):
 
 
 def accelerations(world, rate, wheel_speed, torque):
-    """Of trunk and wheels by MuJoCo."""
+    """Accelerations of trunk and wheels by MuJoCo."""
     data = mujoco.MjData(world.model)
     data.qpos[:] = world.qpos
     data.qvel[3:6], data.qvel[6:8] = rate, wheel_speed
-    # Not by the motors: they are limited.
+    # Not by the motors, which have limits.
     data.qfrc_applied[6:8] = torque
     mujoco.mj_forward(world.model, data)
     return data.qacc[3:6].copy(), data.qacc[6:8].copy()
@@ -181,14 +182,16 @@ def test_both_equations_hold_whatever_the_gear(world, seed):
     np.testing.assert_allclose(driven, tau, rtol=0, atol=1e-9)
 
 
-def test_the_wheel_responds_as_told(world):
-    pushes = [np.array([1.0, 1.0]), np.array([1.0, -1.0])]
-    found = [np.abs(accelerations(world, np.zeros(3), np.zeros(2), tau)[1]).max() for tau in pushes]
-    assert max(found) == pytest.approx(world.body.wheel_response, rel=1e-9)
+def test_the_wheel_response_is_the_largest_acceleration_per_torque(world):
+    torques = [np.array([1.0, 1.0]), np.array([1.0, -1.0])]
+    largest = max(
+        np.abs(accelerations(world, np.zeros(3), np.zeros(2), tau)[1]).max() for tau in torques
+    )
+    assert largest == pytest.approx(world.body.wheel_response, rel=1e-9)
 
 
-def test_momentum_is_kept_behind_a_gear(world):
-    """The armature is no body: it holds energy, and the gear's own turning takes no momentum."""
+def test_momentum_is_conserved_behind_a_gear(world):
+    """The armature is no body: it stores energy, and the gear's rotation has no momentum."""
     data = mujoco.MjData(world.model)
     data.qpos[:] = world.qpos
     data.qvel[3:6], data.qvel[6:8] = (0.5, -2.0, 0.3), (300.0, -500.0)

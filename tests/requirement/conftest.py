@@ -1,4 +1,4 @@
-"""Robots made of figures alone."""
+"""Robots specified by mass and inertia alone."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -22,7 +22,7 @@ def make_robot() -> Callable[..., Robot]:
 
 @pytest.fixture(scope="session")
 def solo12(make_robot) -> Robot:
-    """The reference itself."""
+    """Solo12, the reference of the Froude scaling."""
     from ocs_design.requirement.froude import (
         SOLO12_GYRATION_RADIUS,
         SOLO12_HEIGHT,

@@ -1,4 +1,4 @@
-"""The bound on paper, against MuJoCo, and as the rhombus of the two wheels."""
+"""The bound on the spin inertia: worked examples, MuJoCo, and the rhombus of two wheels."""
 
 import mujoco
 import numpy as np
@@ -37,7 +37,7 @@ FREE_WHEELS = """
 
 
 def spun_up(trunk: list[float], wheels: list[tuple], speed: float) -> tuple:
-    """Trunk rates [rad/s] and total braked inertia once MuJoCo's servos hold the wheels' speed.
+    """Trunk rates [rad/s] once MuJoCo's servos hold the wheels' speed, and total braked inertia.
 
     Each wheel is (position, axis, spin inertia, transverse inertia, mass, sign of its speed).
     """
@@ -48,7 +48,7 @@ def spun_up(trunk: list[float], wheels: list[tuple], speed: float) -> tuple:
             f'<inertial pos="0 0 0" mass="{mass}" diaginertia="{transverse} {transverse} {spin}"/>'
             "</body>"
         )
-        # Fast, yet slow enough for the time step: a time constant of 5 ms.
+        # A time constant of 5 ms is fast, and slow enough for the time step.
         motors.append(f'<velocity joint="w{index}" kv="{spin / 5e-3}"/>')
     model = mujoco.MjModel.from_xml_string(
         FREE_WHEELS.format(
@@ -65,16 +65,16 @@ def spun_up(trunk: list[float], wheels: list[tuple], speed: float) -> tuple:
 
 
 def total_inertia(model, data) -> np.ndarray:
-    """MuJoCo's inertia of the whole about its centre of mass, joints locked."""
+    """MuJoCo's total inertia about the centre of mass, joints locked."""
     mass_matrix = np.zeros((model.nv, model.nv))
     mujoco.mj_fullM(model, data, mass_matrix)
     lever = mass_matrix[:3, 3:6]
     return mass_matrix[3:6, 3:6] - lever.T @ lever / mass_matrix[0, 0]
 
 
-def beanie(required: float) -> float:
-    """The trunk's change of rate about y in the paper's two-body model [rad/s]."""
-    wheel = ("0 0 0", "0 1 0", required, required, 1e-3, 1.0)
+def elroy_beanie_rate(spin_inertia: float) -> float:
+    """Rate change of the trunk about y in the paper's two-body model [rad/s]."""
+    wheel = ("0 0 0", "0 1 0", spin_inertia, spin_inertia, 1e-3, 1.0)
     rates, _ = spun_up([0.03, INERTIA, 0.068], [wheel], WHEEL_SPEED)
     assert rates[[0, 2]] == pytest.approx(0.0, abs=1e-9)
     return abs(rates[1])
@@ -88,25 +88,25 @@ def test_worked_example_of_the_paper():
     assert bound.paper / (2 * np.cos(np.radians(40.0))) == pytest.approx(8.9399e-5, rel=1e-5)
 
 
-def test_the_printed_bound_is_low_by_twice_the_ratio_of_rates():
+def test_the_printed_bound_is_too_low_by_twice_the_ratio_of_rates():
     bound = spin_bound(INERTIA, RATE_CHANGE, WHEEL_SPEED, 1.0)
     assert bound.required == pytest.approx(1.3770e-4, rel=1e-4)
     assert bound.required == corrected_bound(INERTIA, RATE_CHANGE, WHEEL_SPEED)
-    missing = 1.0 - bound.paper / bound.required
-    assert missing == pytest.approx(2 * RATE_CHANGE / WHEEL_SPEED, rel=5e-3)
+    shortfall = 1.0 - bound.paper / bound.required
+    assert shortfall == pytest.approx(2 * RATE_CHANGE / WHEEL_SPEED, rel=5e-3)
 
 
-def test_mujoco_reaches_the_rate_change_with_the_corrected_bound_and_not_with_the_printed_one():
+def test_mujoco_confirms_the_corrected_bound_and_not_the_printed_one():
     required = corrected_bound(INERTIA, RATE_CHANGE, WHEEL_SPEED)
-    assert beanie(required) == pytest.approx(RATE_CHANGE, rel=1e-6)
+    assert elroy_beanie_rate(required) == pytest.approx(RATE_CHANGE, rel=1e-6)
     printed = elroy_beanie_bound(INERTIA, RATE_CHANGE, WHEEL_SPEED)
-    shortfall = 1.0 - beanie(printed) / RATE_CHANGE
+    shortfall = 1.0 - elroy_beanie_rate(printed) / RATE_CHANGE
     assert shortfall == pytest.approx(2 * RATE_CHANGE / WHEEL_SPEED, rel=1e-2)
 
 
 @pytest.mark.parametrize(("axis", "signs"), [(1, (1.0, 1.0)), (0, (1.0, -1.0))])
-def test_mujoco_reaches_it_with_two_wheels_beside_the_trunk(axis, signs):
-    """Masses, levers and transverse inertias count in the total that the demand is made from."""
+def test_mujoco_confirms_the_demand_of_two_wheels_beside_the_trunk(axis, signs):
+    """The total inertia includes masses, levers and transverse inertias of the wheels."""
     alpha, trunk = np.radians(40.0), [0.03, INERTIA, 0.068]
     sine, cosine = np.sin(alpha), np.cos(alpha)
 
@@ -118,20 +118,20 @@ def test_mujoco_reaches_it_with_two_wheels_beside_the_trunk(axis, signs):
 
     requirement = Requirement((), RATE_CHANGE, WHEEL_SPEED, None, 0.25)
     spin = 1e-4
-    for _ in range(8):  # the wheels' own inertia is in the total
+    for _ in range(8):  # the total includes the wheels' own inertia
         _, total = spun_up(trunk, pair(spin), 0.0)
         spin = spin_demands(requirement, total, alpha)[axis].spin_inertia
     rates, _ = spun_up(trunk, pair(spin), WHEEL_SPEED)
     assert abs(rates[axis]) == pytest.approx(RATE_CHANGE, rel=1e-6)
 
 
-def test_no_wheel_changes_the_rate_by_more_than_its_own_speed():
+def test_a_rate_change_beyond_the_wheel_speed_is_infeasible():
     assert corrected_bound(INERTIA, 750.0, 750.0) == np.inf
     assert corrected_bound(INERTIA, 800.0, 750.0) == np.inf
     assert spin_bound(INERTIA, 2.0, 750.0, np.cos(np.pi / 2)).spin_inertia == np.inf
 
 
-def test_curve_holds_the_bound_at_each_point():
+def test_curve_is_the_bound_at_each_point():
     changes, speeds = np.array([0.5, 2.0, 700.0]), np.array([300.0, 750.0])
     curve = bound_curve(changes, speeds)
     expected = [[corrected_bound(1.0, d, gamma) for d in changes] for gamma in speeds]
@@ -146,21 +146,21 @@ def test_curve_holds_the_bound_at_each_point():
     incidence=st.floats(0.05, 1.5),
     speed=st.floats(10, 1e4),
 )
-def test_the_wheels_reach_the_momentum_and_no_smaller_ones_do(roll, pitch, incidence, speed):
-    """Solves C h = L for the momentum of each wheel: the larger one decides."""
+def test_spin_inertia_per_wheel_is_the_smallest_sufficient_one(roll, pitch, incidence, speed):
+    """The larger momentum of both wheels, which solve C h = L."""
     axes = [[np.sin(incidence), -np.sin(incidence)], [np.cos(incidence), np.cos(incidence)]]
-    each = np.linalg.solve(axes, [roll, pitch])
+    momenta = np.linalg.solve(axes, [roll, pitch])
     least = per_wheel(np.array([roll, pitch]), incidence) / speed
-    assert least == pytest.approx(np.abs(each).max() / speed, rel=1e-9, abs=1e-300)
+    assert least == pytest.approx(np.abs(momenta).max() / speed, rel=1e-9, abs=1e-300)
 
 
-def test_zero_momentum_costs_nothing_where_the_wheels_have_no_authority():
+def test_zero_momentum_about_an_uncontrolled_axis_is_feasible():
     assert per_wheel(np.array([0.0, 2.0]), 0.0) == pytest.approx(1.0)
     assert per_wheel(np.array([2.0, 0.0]), np.pi / 2) == pytest.approx(1.0)
     assert per_wheel(np.zeros(2), 0.0) == 0.0
 
 
-def test_momentum_out_of_reach_is_an_infinite_demand_that_names_its_axis():
+def test_momentum_about_an_uncontrolled_axis_is_an_infinite_demand_that_names_it():
     requirement = Requirement((), 2.0, 750.0, None, 0.25)
     roll, pitch = spin_demands(requirement, TOTAL, 0.0)
     assert (roll.source, roll.unreachable_axes) == ("rate change, roll", ("roll",))
@@ -171,7 +171,7 @@ def test_momentum_out_of_reach_is_an_infinite_demand_that_names_its_axis():
     assert pitch.unreachable_axes == ("pitch",)
 
 
-def test_each_maneuver_is_asked_at_its_own_incidence():
+def test_each_maneuver_has_its_own_incidence():
     maneuvers = (
         Disturbance(
             name="push",
@@ -194,8 +194,8 @@ def test_each_maneuver_is_asked_at_its_own_incidence():
     assert flip.spin_inertia == pytest.approx(0.0535 * 6.28 / (2 * 750.0))
 
 
-def test_a_braked_total_gives_the_corrected_one_wheel_bound():
-    """(I_r + I_f) d = I_f gamma is the demand with the wheel counted in the total."""
+def test_the_demand_of_a_braked_total_is_the_corrected_bound():
+    """(I_r + I_f) d = I_f gamma, with the wheel included in the total."""
     required = corrected_bound(INERTIA, RATE_CHANGE, WHEEL_SPEED)
     requirement = Requirement((), RATE_CHANGE, WHEEL_SPEED, None, 0.25)
     total = np.diag([0.03, INERTIA + required, 0.068])

@@ -1,4 +1,4 @@
-"""Files of specifications, written, and with comments."""
+"""Specification files, as written and with comments."""
 
 import re
 from collections.abc import Mapping
@@ -41,7 +41,7 @@ def default(solo12):
 
 @pytest.fixture(scope="module")
 def empty(default):
-    """With nothing specified."""
+    """Commented file of an empty specification."""
     return commented_toml(Specification(), default, title="Anything", examples=EXAMPLES)
 
 
@@ -52,33 +52,33 @@ def read(text):
     return parse_specification(text, "written")
 
 
-def of_section(text, name):
-    """The lines below the heading of one section."""
+def section_of(text, name):
+    """Lines below the heading of one section."""
     return re.split(r"^\[|^# What the device", text.split(f"[{name}]\n", 1)[1], flags=re.MULTILINE)[
         0
     ]
 
 
-def stated_line(text, section, key):
-    """The text with the line of one key stated."""
+def with_line_uncommented(text, section, key):
+    """The text with the line of one key uncommented."""
     head, heading, tail = text.partition(f"[{section}]\n")
     return head + heading + tail.replace(f"\n# {key} = ", f"\n{key} = ", 1)
 
 
-def test_where_nothing_is_stated_nothing_is(empty):
+def test_a_commented_file_specifies_nothing(empty):
     assert read(empty) == Specification()
 
 
 def test_every_key_has_its_line(empty):
     for name, section in SECTIONS.items():
-        assert KEY_LINE.findall(of_section(empty, name)) == list(keys_of(section))
+        assert KEY_LINE.findall(section_of(empty, name)) == list(keys_of(section))
 
 
 @pytest.mark.parametrize("path", sorted(set(all_keys()) - {"robot.mass", "robot.inertia"}))
-def test_each_line_can_be_stated_alone(path, empty, default):
+def test_each_line_can_be_uncommented_alone(path, empty, default):
     section, key = path.split(".")
-    found = read(stated_line(empty, section, key))
-    value = getattr(getattr(found, section), key)
+    specification = read(with_line_uncommented(empty, section, key))
+    value = getattr(getattr(specification, section), key)
     expected = getattr(getattr(default, section), key)
     assert value is not None
     if isinstance(expected, Distribution):
@@ -89,17 +89,18 @@ def test_each_line_can_be_stated_alone(path, empty, default):
 
 
 def test_a_robot_by_hand_needs_both_of_its_lines(empty):
-    both = stated_line(stated_line(empty, "robot", "mass"), "robot", "inertia")
+    both = with_line_uncommented(empty, "robot", "mass")
+    both = with_line_uncommented(both, "robot", "inertia")
     assert read(both).robot.mass == 2.5
 
 
-def test_all_maneuvers_stated_are_the_default_ones(empty, default):
+def test_uncommented_maneuvers_are_the_default_ones(empty, default):
     uncommented = MANEUVER.sub(lambda match: match[0].replace("# ", "", 1), empty)
     uncommented = re.sub(r"^# (?=\w+ = .* # )", "", uncommented, flags=re.MULTILINE)
     uncommented = re.sub(r"^# (?=kind = )", "", uncommented, flags=re.MULTILINE)
-    found = read(uncommented).maneuvers
-    assert leaves(found[:3]) == pytest.approx(leaves(default.maneuvers))
-    assert leaves(found[3:]) == near(EXAMPLES, 1e-3)
+    maneuvers = read(uncommented).maneuvers
+    assert leaves(maneuvers[:3]) == pytest.approx(leaves(default.maneuvers))
+    assert leaves(maneuvers[3:]) == near(EXAMPLES, 1e-3)
 
 
 def test_every_kind_of_maneuver_is_shown(empty):
@@ -108,14 +109,14 @@ def test_every_kind_of_maneuver_is_shown(empty):
     )
 
 
-def test_an_example_is_not_shown_where_one_is_stated(default):
+def test_an_example_is_not_shown_where_one_is_specified(default):
     shove = EXAMPLES[:1]
     text = commented_toml(Specification(maneuvers=shove), default, title="x", examples=shove)
     assert text.count('kind = "shove"') == 1
 
 
 def leaves(value, path=""):
-    """Everything that a specification or its maneuvers hold, by where it stands."""
+    """All values of a specification or of its maneuvers, by path."""
     if is_dataclass(value):
         value = vars(value)
     if isinstance(value, tuple):
@@ -130,26 +131,26 @@ def leaves(value, path=""):
 
 
 def near(value, rel):
-    """Its leaves, numbers to a relative tolerance."""
+    """Leaves of a value, numbers with a relative tolerance."""
     return {
         path: pytest.approx(each, rel=rel) if isinstance(each, float) else each
         for path, each in leaves(value).items()
     }
 
 
-def test_everything_that_is_stated_is_read_back(default):
-    """A degree is no finite number of radians."""
-    found = leaves(read(commented_toml(FULL_SPECIFICATION, default, title="x")))
-    assert found == near(FULL_SPECIFICATION, 1e-12)
-    assert len(found) > len(all_keys())
+def test_a_full_specification_is_read_back_from_a_commented_file(default):
+    """To rounding, since angles are written in degrees."""
+    values = leaves(read(commented_toml(FULL_SPECIFICATION, default, title="x")))
+    assert values == near(FULL_SPECIFICATION, 1e-12)
+    assert len(values) > len(all_keys())
 
 
-def test_the_units_of_each_key_are_told(empty):
+def test_the_comment_of_each_key_names_its_units(empty):
     for path, key in all_keys().items():
-        assert f"# {key.summary} [{key.value.takes}]" in of_section(empty, path.split(".")[0])
+        assert f"# {key.summary} [{key.value.takes}]" in section_of(empty, path.split(".")[0])
 
 
-def test_rounded_for_people(default):
+def test_rounded_texts(default):
     assert rounded_text(default, "flywheel.r_max") == "50 mm"
     assert rounded_text(default, "supply.voltage") == "24 V"
     assert rounded_text(default, "supply.controllers") == "auto"
@@ -159,9 +160,9 @@ def test_rounded_for_people(default):
     assert rounded_text(fast, "requirement.wheel_speed_max") == "1200 rpm"
 
 
-STATED = {
+SPECIFICATIONS = {
     "everything": FULL_SPECIFICATION,
-    # A bare number so large would be taken for degrees.
+    # Such a large number without a unit would be taken for degrees.
     "a joint beyond a turn": Specification(
         robot=RobotSection(joints={"wheel": 4.0 * np.pi, "knee": 1.5})
     ),
@@ -188,12 +189,12 @@ def check_read_back(specified):
     )
 
 
-@pytest.mark.parametrize("specified", STATED.values(), ids=STATED)
-def test_what_is_stated_is_read_back(specified):
+@pytest.mark.parametrize("specified", SPECIFICATIONS.values(), ids=SPECIFICATIONS)
+def test_a_written_specification_is_read_back(specified):
     check_read_back(specified)
 
 
-def test_the_full_specification_states_every_key_but_the_ones_that_exclude_others():
+def test_the_full_specification_has_every_key_that_does_not_exclude_others():
     excluded = {"mass", "inertia", "human", "maneuvers", "axes"}
     for name, section in SECTIONS.items():
         specified = getattr(FULL_SPECIFICATION, name)
@@ -204,7 +205,7 @@ def test_the_full_specification_states_every_key_but_the_ones_that_exclude_other
     }
 
 
-def test_a_comment_stands_at_the_top():
+def test_a_title_is_a_comment_at_the_top():
     text = specification_to_toml(FULL_SPECIFICATION, "one\n\ntwo")
     assert text.startswith("# one\n#\n# two\n\n[robot]\n")
     assert same_specification(parse_specification(text, "written"), FULL_SPECIFICATION)
@@ -213,7 +214,7 @@ def test_a_comment_stands_at_the_top():
 @given(
     st.floats(1e-12, 1.5), st.floats(1e-12, 1e9), st.text(min_size=1).filter(lambda t: t.strip())
 )
-def test_any_number_and_any_text(angle, speed, text):
+def test_any_number_and_text_is_read_back(angle, speed, text):
     text = text.encode(errors="ignore").decode().replace("\0", "") or "x"
     specified = Specification(
         robot=RobotSection(name=text if text.strip() else "x"),

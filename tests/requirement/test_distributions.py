@@ -1,4 +1,4 @@
-"""Distributions against SciPy's, and their text."""
+"""Distributions against SciPy, and their text."""
 
 import math
 import os
@@ -29,25 +29,25 @@ ANGLE = Spread(Dimension.ANGLE, "deg")
 finite = st.floats(-1e6, 1e6)
 
 
-def test_a_normal_distribution_is_cut_at_three_deviations():
+def test_a_normal_distribution_is_truncated_at_three_deviations():
     parts = np.linspace(0.0, 1.0, 101)
     ours = [Normal(2.0, 0.5).at(part) for part in parts]
     theirs = stats.truncnorm(-CUT, CUT, loc=2.0, scale=0.5).ppf(parts)
     np.testing.assert_allclose(ours, theirs, rtol=0.0, atol=1e-9)
 
 
-def test_a_uniform_one_goes_from_end_to_end():
+def test_quantiles_of_uniform_and_constant():
     assert [Uniform(-1.0, 3.0).at(part) for part in (0.0, 0.25, 1.0)] == [-1.0, 0.0, 3.0]
     assert [Constant(4.0).at(part) for part in (0.0, 1.0)] == [4.0, 4.0]
 
 
 @given(finite, st.floats(0.0, 1e6))
-def test_text_is_read_back_to_the_last_bit(mean, width):
+def test_text_is_read_back_exactly(mean, width):
     for spread in (Normal(mean, width), Uniform(mean, mean + width), Constant(mean)):
         assert ANGLE.read(spread.written(), "x") == spread
 
 
-def test_ends_may_have_units():
+def test_parameters_may_have_units():
     assert ANGLE.read("normal(0, 180deg)", "x") == Normal(0.0, math.pi)
     assert Spread(Dimension.TIME, "ms").read(" uniform( 1ms ,3 ms ) ", "x") == Uniform(0.001, 0.003)
     assert ANGLE.read(0.5, "x") == Constant(0.5)
@@ -65,7 +65,7 @@ def test_ends_may_have_units():
         ("2", "reaches 200%, beyond 90%"),
     ],
 )
-def test_what_makes_no_sense_is_refused(text, word):
+def test_invalid_distributions_are_refused(text, word):
     with pytest.raises(OcsError, match=word):
         Spread(Dimension.RATIO, "%", -0.9, 0.9).read(text, "reality.mass_error")
 
@@ -77,15 +77,15 @@ def test_every_default_has_a_source():
 
 
 def test_defaults_scale_with_the_robot():
-    """2.7 mm and 0.048 rad/s on Solo12, 0.272 m high; the motor's friction is left open."""
+    """2.7 mm and 0.048 rad/s on Solo12, 0.272 m high; without a motor friction is unknown."""
     default = default_uncertainty(0.272)
     assert default.com_error == Normal(0.0, 0.00272)
     assert default.takeoff_rate.deviation == pytest.approx(0.008 * math.sqrt(9.81 / 0.272))
     assert default.coulomb_friction is None
 
 
-def test_friction_is_that_of_the_motor_at_the_voltage_it_is_rated_for():
-    """Half of k_t I_0 is dry; a quarter to three quarters goes with speed, 1 at no-load speed."""
+def test_default_friction_follows_from_the_motors_no_load_current():
+    """25 % to 75 % of k_t I_0 is Coulomb friction, and as much is viscous at no-load speed."""
     motor = replace(EC45, torque_constant=0.03, no_load_current=0.2, rated_voltage=12.0)
     default, torque = default_uncertainty(0.272, motor), 0.03 * 0.2
     assert default.coulomb_friction == Uniform(0.25 * torque, 0.75 * torque)
@@ -94,7 +94,7 @@ def test_friction_is_that_of_the_motor_at_the_voltage_it_is_rated_for():
     assert default.viscous_friction.high == pytest.approx(0.75 * slope, rel=1e-6)
 
 
-def test_a_file_takes_the_place_of_the_defaults(tmp_path):
+def test_a_file_replaces_the_defaults(tmp_path):
     file = tmp_path / "own.toml"
     file.write_text(
         '[reality]\nmass_error = "normal(0, 1%)"\n'

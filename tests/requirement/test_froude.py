@@ -1,4 +1,4 @@
-"""The paper's maneuvers on Solo12 itself, and alike on every other robot."""
+"""The paper's maneuvers on Solo12, and Froude scaling to other robots."""
 
 from pathlib import Path
 from unittest.mock import patch
@@ -28,7 +28,7 @@ RATIOS = st.floats(0.2, 20.0)
 ANY = robot_by_hand(2.5, (0.03, 0.05, 0.07))
 
 
-def test_solo12_does_exactly_what_the_paper_says(solo12):
+def test_solo12_has_the_maneuvers_of_the_paper(solo12):
     push, drop, flip = default_maneuvers(solo12)
     assert push.torque == (0.2, 0.8, 0.0)
     assert (push.onset, push.duration) == (0.1, 0.05)
@@ -39,29 +39,26 @@ def test_solo12_does_exactly_what_the_paper_says(solo12):
     assert (push.incidence, drop.incidence, flip.incidence) == (None, None, None)
 
 
-def test_the_room_of_a_larger_robot_has_the_same_proportions(make_robot, solo12):
+def test_the_envelope_of_a_larger_robot_has_the_same_proportions(make_robot, solo12):
     larger = make_robot(30.0, (1.0, 2.0, 2.4), 0.6)
-    own, room = default_envelope(solo12), default_envelope(larger)
+    small, large = default_envelope(solo12), default_envelope(larger)
     lengths = ("inner_radius_min", "height_max", "height_min", "wall_min")
-    ratio = room.outer_radius_max / own.outer_radius_max
+    ratio = large.outer_radius_max / small.outer_radius_max
     assert ratio > 1.5
     for name in lengths:
-        assert getattr(room, name) == pytest.approx(ratio * getattr(own, name), rel=1e-12), name
+        assert getattr(large, name) == pytest.approx(ratio * getattr(small, name), rel=1e-12), name
 
 
 @given(length=RATIOS, mass=RATIOS)
-def test_a_larger_robot_moves_alike(length, mass):
-    """Equal Froude numbers, equal angles turned per own time, whatever the size and mass."""
+def test_maneuvers_scale_with_size_and_mass(length, mass):
+    """Equal Froude numbers and angles per robot's time scale."""
     inertia = length**2 * mass
     small, large = FroudeScale(1.0, 1.0, 1.0), FroudeScale(length, inertia, inertia)
-    tests = zip(maneuvers_of(small), maneuvers_of(large), strict=True)
-    for one, other in tests:
-        height, room = SOLO12_HEIGHT, SOLO12_HEIGHT * length
-        rates = one.momentum(TiltInertia.uncoupled([0.03, 0.05]), height) / [0.03, 0.05]
-        scaled = other.momentum(TiltInertia.uncoupled([0.03 * inertia, 0.05 * inertia]), room) / [
-            0.03 * inertia,
-            0.05 * inertia,
-        ]
+    moments = np.array([0.03, 0.05])
+    for one, other in zip(maneuvers_of(small), maneuvers_of(large), strict=True):
+        rates = one.momentum(TiltInertia.uncoupled(moments), SOLO12_HEIGHT) / moments
+        scaled = other.momentum(TiltInertia.uncoupled(moments * inertia), SOLO12_HEIGHT * length)
+        scaled /= moments * inertia
         np.testing.assert_allclose(scaled * np.sqrt(length), rates, rtol=1e-9)
 
 
@@ -77,21 +74,21 @@ def test_the_jump_keeps_its_froude_number(length, gravity):
 
 
 @given(length=RATIOS, gravity=st.floats(1.0, 25.0))
-def test_examples_take_as_much_of_a_robots_own_time_as_on_solo12(length, gravity):
+def test_durations_of_examples_scale_with_the_robots_time_scale(length, gravity):
     """sqrt(L / g): a shove of 0.1 s and 0.5 s to come to rest, a turn on the Moon, a stop."""
-    own, on_earth = np.sqrt(length * np.array([9.81 / gravity, 1.0]))
+    time, on_earth = np.sqrt(length * np.array([9.81 / gravity, 1.0]))
     with patch.object(FroudeScale, "of", return_value=FroudeScale(length, 1.0, 1.0)):
         shove, turn, stop, *on_pivot = example_maneuvers(ANY, gravity)
-    assert (shove.duration, shove.settling) == pytest.approx((0.1 * own, 0.5 * own))
-    assert (turn.duration, stop.duration) == pytest.approx((3.0 * on_earth, 0.5 * own))
-    assert [each.duration for each in on_pivot] == pytest.approx([1.5 * own, own])
-    assert stop.rate == pytest.approx((0.2 / own, 0.5 / own, 0.0))
+    assert (shove.duration, shove.settling) == pytest.approx((0.1 * time, 0.5 * time))
+    assert (turn.duration, stop.duration) == pytest.approx((3.0 * on_earth, 0.5 * time))
+    assert [each.duration for each in on_pivot] == pytest.approx([1.5 * time, time])
+    assert stop.rate == pytest.approx((0.2 / time, 0.5 / time, 0.0))
     for each in (turn, stop):
-        aloft = np.sqrt(8.0 * each.jump_height / each.gravity)
-        assert each.duration == pytest.approx(0.9 * aloft)
+        flight_time = np.sqrt(8.0 * each.jump_height / each.gravity)
+        assert each.duration == pytest.approx(0.9 * flight_time)
 
 
-def test_without_legs_the_radius_of_gyration_scales(make_robot):
+def test_without_legs_lengths_scale_with_the_radius_of_gyration(make_robot):
     robot = make_robot(2.5, (0.03, 0.05, 0.064), None)
     ratio = np.sqrt(0.144 / 7.5) / SOLO12_GYRATION_RADIUS
     assert FroudeScale.of(robot).length == pytest.approx(ratio)
@@ -104,7 +101,7 @@ def maneuvers_of(scale: FroudeScale, gravity: float = 9.81):
         return default_maneuvers(None, gravity)
 
 
-def test_the_reference_is_solo12_as_the_tool_reads_it():
+def test_the_reference_values_are_those_of_solo12s_file():
     robot = read_robot(EXAMPLE)
     assert robot.posture_name == "stand"
     assert robot.standing_height == pytest.approx(SOLO12_HEIGHT, rel=1e-8)

@@ -1,4 +1,4 @@
-"""What each maneuver asks for, with figures worked by hand."""
+"""Demands of each maneuver, against figures worked out by hand."""
 
 from dataclasses import replace
 
@@ -22,7 +22,7 @@ DROP = Drop(name="drop", height=1.0, roll=np.radians(-10.0), pitch=np.radians(30
 FLIP = Flip(name="flip", gravity=1.62, jump_height=1.0, angle=-2 * np.pi, duration=2.0)
 
 
-def test_a_disturbance_leaves_its_impulse():
+def test_the_momentum_of_a_disturbance_is_its_impulse():
     np.testing.assert_allclose(PUSH.momentum(INERTIA, 0.25), [0.01, 0.04], rtol=1e-15)
 
 
@@ -36,7 +36,7 @@ def test_a_drop_takes_the_time_of_its_fall():
 @pytest.mark.parametrize("roll", np.radians([-10.0, 0.0, 40.0, 100.0]))
 @pytest.mark.parametrize("pitch", np.radians([-60.0, 0.0, 30.0]))
 def test_a_tilt_is_the_smallest_turn_to_level(roll, pitch):
-    """SciPy's rotations: the vertical, turned by the tilt about a horizontal axis, is level."""
+    """By SciPy: the vertical, rotated by the tilt about a horizontal axis, is level."""
     trunk = Rotation.from_euler("YX", [pitch, roll])
     vertical = trunk.inv().apply([0.0, 0.0, 1.0])
     tilt = replace(DROP, roll=roll, pitch=pitch).turn
@@ -47,13 +47,13 @@ def test_a_tilt_is_the_smallest_turn_to_level(roll, pitch):
 
 
 @pytest.mark.parametrize("height", [0.1, 0.25])
-def test_a_drop_needs_room_to_fall(height):
+def test_a_drop_from_below_the_standing_height_is_refused(height):
     with pytest.raises(SpecificationError, match=r"'low'.*stands at 0.25 m"):
         replace(DROP, name="low", height=height).momentum(INERTIA, 0.25)
 
 
 def test_a_flip_peaks_at_twice_its_mean_rate():
-    """A triangle of rates over 2 s covers the whole turn."""
+    """A triangular profile of rates over 2 s covers the full turn."""
     roll, pitch = FLIP.momentum(INERTIA, 0.25)
     assert roll == 0.0
     rate = pitch / INERTIA.diagonal[1]
@@ -63,40 +63,40 @@ def test_a_flip_peaks_at_twice_its_mean_rate():
 
 
 @pytest.mark.parametrize("angle", np.radians([-360.0, -180.0, -20.0, 90.0, 270.0, 720.0]))
-def test_a_turn_strays_by_its_chord(angle):
-    """A pencil along the trunk ends as far from where it began; a whole turn brings it back."""
+def test_stray_of_a_flip_is_the_chord_of_its_angle(angle):
+    """Distance of a unit vector along the trunk from its start; zero after a full turn."""
     moved = Rotation.from_rotvec([0.0, angle, 0.0]).apply([1.0, 0.0, 0.0]) - [1.0, 0.0, 0.0]
     assert replace(FLIP, angle=angle).stray == pytest.approx(np.linalg.norm(moved), abs=1e-14)
 
 
-def test_least_torque_reaches_the_momentum_in_half_the_time():
-    reached = FLIP.least_torque(INERTIA, 0.3) * FLIP.duration / 2.0
-    np.testing.assert_allclose(reached, FLIP.momentum(INERTIA, 0.3))
+def test_least_torque_gives_the_momentum_in_half_the_time():
+    momentum = FLIP.least_torque(INERTIA, 0.3) * FLIP.duration / 2.0
+    np.testing.assert_allclose(momentum, FLIP.momentum(INERTIA, 0.3))
 
 
-def test_a_disturbance_sets_no_time():
+def test_a_disturbance_needs_no_torque():
     np.testing.assert_array_equal(PUSH.least_torque(INERTIA, 0.3), [0.0, 0.0])
 
 
-def test_the_shortest_way_round_a_solid_angle():
-    """A cap of radius b: area 2 pi (1 - cos b), edge 2 pi sin b; of a quarter cos b is 0.75."""
+def test_the_shortest_loop_around_a_solid_angle():
+    """Cap of radius b: area 2 pi (1 - cos b), edge 2 pi sin b; for 90 degrees cos b is 0.75."""
     assert loop_length(np.pi / 2.0) == pytest.approx(2.0 * np.pi * np.sqrt(1.0 - 0.75**2))
     assert loop_length(2.0 * np.pi) == pytest.approx(2.0 * np.pi)
     assert loop_length(-0.3) == loop_length(0.3)
 
 
-def test_a_turn_asks_for_its_tilt_and_for_the_loop_of_its_heading():
+def test_a_turn_requires_its_tilt_and_the_loop_of_its_heading():
     tilted = TurnTo(name="t", jump_height=1.0, pitch=-0.5, duration=0.8)
     half = replace(FLIP, angle=-0.5, duration=0.8, gravity=9.81)
     np.testing.assert_allclose(tilted.momentum(INERTIA, 0.3), half.momentum(INERTIA, 0.3))
     np.testing.assert_allclose(tilted.slew(INERTIA, 0.3).swept, half.slew(INERTIA, 0.3).swept)
-    headed = TurnTo(name="h", jump_height=1.0, yaw=-1.5 * np.pi, duration=2.0)
+    yawed = TurnTo(name="h", jump_height=1.0, yaw=-1.5 * np.pi, duration=2.0)
     steady = 2.0 / np.pi * loop_length(np.pi / 2.0)
     expected = [0.03 * steady, 0.0515 * steady]
-    slew = headed.slew(INERTIA, 0.3)
+    slew = yawed.slew(INERTIA, 0.3)
     np.testing.assert_allclose(slew.swept / slew.duration, np.array(expected) / 2.0)
     assert slew.duration == 0.75 * 2.0
-    np.testing.assert_allclose(headed.momentum(INERTIA, 0.3), np.array(expected) / 2.0)
+    np.testing.assert_allclose(yawed.momentum(INERTIA, 0.3), np.array(expected) / 2.0)
 
 
 def test_a_catch_leaves_its_momentum_in_the_wheels():
@@ -110,13 +110,12 @@ def test_a_catch_leaves_its_momentum_in_the_wheels():
 HEIGHT = 0.25
 COUPLED = TiltInertia(np.array([0.03, 0.05]), np.array(0.004))
 
-
 IN_THE_AIR = [each for each in MANEUVERS if not isinstance(each, Pivoted)]
 
 
 @pytest.mark.parametrize("maneuver", IN_THE_AIR, ids=lambda maneuver: maneuver.name)
 @pytest.mark.parametrize("factor", [1.01, 1.3, 4.0])
-def test_only_the_time_is_other(maneuver, factor):
+def test_a_slower_maneuver_differs_in_time_only(maneuver, factor):
     before = maneuver.slew(COUPLED, HEIGHT)
     after = maneuver.slower(factor, HEIGHT).slew(COUPLED, HEIGHT)
     assert after.duration == pytest.approx(factor * before.duration, rel=1e-12)
@@ -132,13 +131,13 @@ def test_a_turn_ends_before_its_flight(factor):
     assert (longer.jump_height == flip.jump_height) == (factor * flip.duration < flip.flight_time)
 
 
-def test_keys_are_told_rounded_to_the_safe_side():
+def test_changed_keys_are_rounded_to_the_safe_side():
     push, nudge, drop, flip, *_ = MANEUVERS
-    for maneuver, factor, told in (
+    for maneuver, factor, text in (
         (push, 1.1, "push takeoff_velocity [0.5, 2.57] m/s"),
         (nudge, 1.1, "nudge settling 0.44 s"),
         (drop, 1.1, "drop height 1.16 m"),
         (flip, 1.05, "back-flip duration 2.1 s"),
         (flip, 1.5, "back-flip jump_height 1.9 m and duration 3 s"),
     ):
-        assert change_text(maneuver, maneuver.slower(factor, HEIGHT)) == told
+        assert change_text(maneuver, maneuver.slower(factor, HEIGHT)) == text

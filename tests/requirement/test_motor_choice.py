@@ -1,4 +1,4 @@
-"""What may be chosen from, as it is stated."""
+"""Motors, gears, materials and supply to choose from, as specified."""
 
 from dataclasses import replace
 from math import inf
@@ -59,16 +59,18 @@ def names_of(**motor):
 
 
 @pytest.mark.parametrize("word", [None, "auto"])
-def test_auto_is_all_that_can_be_built_with_at_the_supply_and_the_default(word):
+def test_auto_is_the_default_and_all_buildable_motors_rated_for_the_supply(word):
     choice = choice_of(name=word)
-    found = [replace(each, controller_mass=0.0) for each in choice.motors]
+    offered = [replace(each, controller_mass=0.0) for each in choice.motors]
     complete = [each for each in motors().values() if not build_gaps(each)]
-    assert found == [each for each in complete if (each.voltage_max or each.rated_voltage) >= 24.0]
-    assert 40 < len(found) < len(complete)
+    assert offered == [
+        each for each in complete if (each.voltage_max or each.rated_voltage) >= 24.0
+    ]
+    assert 40 < len(offered) < len(complete)
     assert choice.wheel_speed_max is None
 
 
-def test_a_motor_rated_for_less_than_the_supply_is_for_the_asking():
+def test_a_motor_rated_for_less_than_the_supply_must_be_named():
     weak = motor("AT2814 KV1050")
     assert weak.rated_voltage < 24.0
     assert weak.name not in names_of()
@@ -78,17 +80,17 @@ def test_a_motor_rated_for_less_than_the_supply_is_for_the_asking():
         choice_of(supply={"voltage": 500.0})
 
 
-def test_gears_are_for_the_asking_or_of_the_users_own(tmp_path):
+def test_gears_must_be_requested_or_the_users_own(tmp_path):
     assert choice_of().gears == (DIRECT,)
-    every = (DIRECT, *stages(gears().values()))
-    assert choice_of(gear="auto").gears == every
+    catalogue = (DIRECT, *stages(gears().values()))
+    assert choice_of(gear="auto").gears == catalogue
     own = tmp_path / "own.toml"
     own.write_text(OWN_GEAR)
     mine = choice_of(gears=str(own)).gears
-    assert [gear.name for gear in mine if gear not in every] == ["mine 2:1"]
+    assert [gear.name for gear in mine if gear not in catalogue] == ["mine 2:1"]
 
 
-def test_auto_is_every_material_whose_stress_can_be_checked():
+def test_auto_is_every_material_with_known_strength():
     assert {material.name for material in choice_of(material="auto").materials} == {
         name
         for name, found in materials().items()
@@ -97,9 +99,9 @@ def test_auto_is_every_material_whose_stress_can_be_checked():
 
 
 @pytest.mark.parametrize("word", [None, "steel"])
-def test_steel_is_every_steel_and_the_default(word):
+def test_all_steels_are_the_default(word):
     chosen = choice_of(material=word).materials
-    # Each steel by its name, and no other metal is as dense and as stiff as one.
+    # No other metal is as dense.
     assert {material.name for material in chosen} == {
         "stainless-304",
         "stainless-316",
@@ -110,13 +112,13 @@ def test_steel_is_every_steel_and_the_default(word):
     assert all(7800.0 <= material.density <= 8000.0 for material in chosen)
 
 
-def test_several_names_are_chosen_among_whatever_they_lack():
+def test_named_motors_are_offered_even_with_missing_data():
     names = "R80 KV110, MN5212 KV340"
     assert names_of(name=names) == names.split(", ")
     assert build_gaps(motors()["R80 KV110"])
 
 
-def test_names_are_taken_alone():
+def test_named_motor_gear_and_material_are_the_only_choice():
     gear = next(name for name, sheet in gears().items() if sheet.stages())
     choice = choice_of(name="R80 KV110", gear=gear, material="brass-c360")
     assert [motor.name for motor in choice.motors] == ["R80 KV110"]
@@ -125,18 +127,18 @@ def test_names_are_taken_alone():
     assert choice_of(gear="direct").gears == (DIRECT,)
 
 
-def test_the_bus_goes_with_the_mass_unless_stated():
+def test_the_default_voltage_follows_the_mass():
     assert [choice_of(robot).supply.voltage for robot in (LIGHT, HEAVY, HEAVIEST)] == [24, 48, 72]
     assert choice_of(HEAVY, supply={"voltage": 12.0}).supply.voltage == 12.0
 
 
-def test_a_pack_gives_400_watts_per_kg_of_robot_unless_stated():
+def test_the_default_power_is_400_watts_per_kg_of_robot():
     assert choice_of(LIGHT).supply.power == 8000.0
     assert choice_of(supply={"power_max": 100.0}).supply.power == 100.0
     assert choice_of(supply={"current_max": 10.0}).supply.power == 240.0
 
 
-def test_a_stated_torque_limits_every_stage():
+def test_a_specified_torque_limits_every_stage():
     free, limited = choice_of(), choice_of(torque_max=0.5)
     assert DIRECT.torque_max == inf
     for before, after in zip(free.gears, limited.gears, strict=True):
@@ -144,14 +146,14 @@ def test_a_stated_torque_limits_every_stage():
 
 
 @pytest.mark.parametrize("sheet", [sheet for sheet in gears().values() if sheet.stages()])
-def test_a_gear_is_meant_with_any_ratio_or_with_the_one_that_is_printed(sheet):
+def test_a_gear_is_named_with_or_without_its_ratio(sheet):
     stages = sheet.stages()
     assert choice_of(gear=sheet.name).gears == stages
     for stage in (stages[0], stages[-1]):
         assert choice_of(gear=stage.name).gears == (stage,)
 
 
-def test_a_belt_with_one_pulley_is_told_what_it_lacks(tmp_path):
+def test_a_belt_with_one_pulley_is_refused(tmp_path):
     own = tmp_path / "own.toml"
     row = {"pitch_m": 0.002, "width_m": 0.006, "belt_mass_kg_per_m": 0.01, "mass_kg": 0.02}
     row |= {"working_tension_n": 40, "belt_speed_max_m_s": 40, "pulley_density_kg_m3": 2700}
@@ -176,7 +178,7 @@ def test_a_belt_with_one_pulley_is_told_what_it_lacks(tmp_path):
         *((raw, None) for raw in ("", " ", 3, ["a", 3], [["a"]])),
     ],
 )
-def test_names_are_a_list_or_a_text_with_commas(raw, names):
+def test_names_are_a_list_or_separated_by_commas(raw, names):
     if names is None:
         with pytest.raises(SpecificationError, match=r"motor\.name"):
             several_names.read(raw, "motor.name")
@@ -191,7 +193,7 @@ def own(tmp_path):
     return str(file)
 
 
-def test_own_motors_stand_instead_of_the_catalogue_or_beside_it(own):
+def test_own_motors_replace_or_extend_the_catalogue(own):
     assert names_of(motors=own, any=True) == ["Own 1"]
     assert set(names_of(motors=own, with_catalogue=True, any=True)) == {"Own 1", *motors()}
     assert names_of(motors=own, name="Own 1") == ["Own 1"]
@@ -204,7 +206,7 @@ def test_own_motors_stand_instead_of_the_catalogue_or_beside_it(own):
         (OWN_MOTOR, "every motor lacks data needed to build: Own 1 lacks kind: outrunner"),
     ],
 )
-def test_a_file_without_a_motor_to_build_with_is_at_fault_under_its_own_key(tmp_path, rows, fault):
+def test_a_file_without_a_buildable_motor_is_refused_under_its_key(tmp_path, rows, fault):
     own = tmp_path / "own.toml"
     own.write_text(rows)
     (problem,) = problems_of(parse_specification(f"motor.motors = '{own}'", "x"), LIGHT, 1.0)
@@ -212,8 +214,8 @@ def test_a_file_without_a_motor_to_build_with_is_at_fault_under_its_own_key(tmp_
     assert fault in problem
 
 
-def test_a_supply_is_compared_with_what_makers_allow_beyond_the_rating(own):
-    """A voltage that no known motor takes was meant with its point elsewhere."""
+def test_a_supply_is_compared_with_the_highest_permitted_voltage(own):
+    """A voltage above that of every known motor is probably a typing error."""
     with pytest.raises(SpecificationError, match="no known motor takes more than 160 V"):
         resolve(parse_specification("supply.voltage = 300", "x"), LIGHT, 1.0)
     with Path(own).open("a") as rows:
@@ -249,14 +251,14 @@ def test_a_supply_is_compared_with_what_makers_allow_beyond_the_rating(own):
         ("motor.name = 'none'\nocs.co_design = true", ("ocs.co_design", "needs a motor")),
     ],
 )
-def test_what_cannot_be_meant_is_said(text, words):
+def test_contradictions_are_explained(text, words):
     with pytest.raises(SpecificationError) as caught:
         resolve(parse_specification(text, "x"), LIGHT, 1.0)
-    told = str(caught.value)
-    assert all(word in told for word in words)
+    message = str(caught.value)
+    assert all(word in message for word in words)
 
 
-def test_controllers_weigh_what_the_rule_or_the_specification_says():
+def test_mass_of_controllers_is_specified_or_estimated():
     auto = choice_of(name="R80 KV110").motors[0]
     assert auto.controller_mass == controller_mass_of(motors()["R80 KV110"]) > 0.008
     for specified, mass in ((0.035, 0.035), ("none", 0.0), ("auto", auto.controller_mass)):
@@ -264,17 +266,17 @@ def test_controllers_weigh_what_the_rule_or_the_specification_says():
         assert choice.motors[0].controller_mass == mass
 
 
-def test_doubts_about_a_motor_stand_with_those_about_the_robot(tmp_path):
-    """They are told before anything is sized, and are errors with --strict."""
+def test_warnings_about_a_motor_are_given_with_those_about_the_robot(tmp_path):
+    """They come before any sizing, and are errors with --strict."""
     own = tmp_path / "own.toml"
     own.write_text(
         '[[motor]]\nname = "Own"\nmaker = "me"\nsource = "bench"\nkv_rpm_per_v = 450000\n'
     )
     by_hand = RobotSection(mass=2.5, inertia=(0.032, 0.055, 0.07, 0.0, 0.0, 0.0))
-    asked = Specification(robot=by_hand, motor=MotorSection(motors=str(own)))
-    (doubt,) = read_specified_robot(asked).warnings
-    assert "Own: kv_rpm_per_v is 450000 rpm/V" in doubt
+    specification = Specification(robot=by_hand, motor=MotorSection(motors=str(own)))
+    (warning,) = read_specified_robot(specification).warnings
+    assert "Own: kv_rpm_per_v is 450000 rpm/V" in warning
     with pytest.raises(RobotError, match=r"--strict: .* did you mean 450 rpm/V"):
-        read_specified_robot(asked, strict=True)
-    alone = replace(asked, motor=MotorSection(motors=str(own), name="none"))
-    assert read_specified_robot(alone).warnings == ()
+        read_specified_robot(specification, strict=True)
+    without_motor = replace(specification, motor=MotorSection(motors=str(own), name="none"))
+    assert read_specified_robot(without_motor).warnings == ()

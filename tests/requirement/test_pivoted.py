@@ -1,4 +1,4 @@
-"""Standing up and balancing about a pivot: closed forms against figures and integrations."""
+"""Standing up and balancing about a pivot: closed forms against published figures and ODEs."""
 
 from dataclasses import replace
 
@@ -23,7 +23,7 @@ ANY = TiltInertia.uncoupled([1.0, 1.0])
 EDGE = {"pivot": (0.0, 0.0, -0.085), "edge": (1.0, 0.0, 0.0)}
 
 
-def test_a_brake_takes_the_speed_of_the_cubli():
+def test_braking_from_the_speed_of_the_cubli():
     """Gajamohan et al. (IROS 2012): a plate of 0.419 kg at 75 mm, a wheel of 0.204 kg at 85 mm.
 
     `W^2 = (2 - sqrt 2) (I_w + I_b + m_w l^2) (m_b l_b + m_w l) g / I_w^2`, I_b about the edge.
@@ -36,16 +36,16 @@ def test_a_brake_takes_the_speed_of_the_cubli():
     edge = {"pivot": (0.0, 0.0, 0.0), "edge": (0.0, 2.0, 0.0)}
     jump = StandUp(name="up", **edge, pitch=-np.pi / 4.0, duration=1.0, actuation="brake").on(body)
     np.testing.assert_allclose(jump.momentum(ANY, 0.1) / i_w, [0.0, speed / i_w], rtol=1e-12)
-    # Right after the brake the energy is that of the climb.
+    # Right after braking the kinetic energy is that of the rise.
     rise = mass * g * com * (1.0 - np.cos(np.pi / 4.0))
     assert 0.5 * jump.initial_rate @ jump.inertia @ jump.initial_rate == pytest.approx(
         rise, rel=1e-12
     )
     assert jump.initial_rate[1] > 0.0
     np.testing.assert_array_equal(jump.least_torque(ANY, 0.1), 0.0)
-    # While the brake holds, gravity takes 2 % of the momentum of a small tilt.
-    quickness = np.sqrt((m_b * l_b + m_w * l_w) * g / (i_w + i_b + m_w * l_w**2))
-    assert jump.stop == pytest.approx(0.02 / quickness, rel=1e-12)
+    # During braking, gravity takes 2 % of the momentum of a small tilt.
+    pole = np.sqrt((m_b * l_b + m_w * l_w) * g / (i_w + i_b + m_w * l_w**2))
+    assert jump.stop == pytest.approx(0.02 / pole, rel=1e-12)
     assert jump.stop == pytest.approx(2.1e-3, rel=0.02)
 
 
@@ -58,14 +58,14 @@ def test_a_brake_takes_the_speed_of_the_cubli():
 )
 def test_a_swing_ends_upright_and_at_rest(tilt, rate, time, stiffness):
     inertia = 0.02
-    quick = np.sqrt(stiffness / inertia)
-    diverging, converging = tilt + rate / quick, tilt - rate / quick
-    # On its way up it may have to be let fall first, which is no first torque against the tilt.
-    if abs(diverging) < 1e-3 or converging / diverging < -np.exp(-quick * time):
+    pole = np.sqrt(stiffness / inertia)
+    diverging, converging = tilt + rate / pole, tilt - rate / pole
+    # Too fast on its way up, it would need a first torque in the sense of the tilt.
+    if abs(diverging) < 1e-3 or converging / diverging < -np.exp(-pole * time):
         diverging = max(abs(diverging), 1e-3)
         tilt, rate = diverging, 0.0
     found = swing(stiffness, inertia, tilt, rate, time)
-    sense = np.sign(tilt + rate / quick)
+    sense = np.sign(tilt + rate / pole)
 
     def slope(torque):
         return lambda _, y: [y[1], (stiffness * y[0] - torque) / inertia]
@@ -78,39 +78,39 @@ def test_a_swing_ends_upright_and_at_rest(tilt, rate, time, stiffness):
 
 
 @pytest.mark.parametrize("pitch", [0.3, -0.3])
-def test_a_wheel_that_begins_against_its_climb_may_be_smaller(pitch):
-    """The wheels speed up in the sense of the tilt; their speed may change by w + w_max."""
+def test_a_wheel_that_starts_spinning_backwards_may_be_smaller(pitch):
+    """Its speed may change by w + w_max."""
     body = MassProperties(2.0, np.array([0.0, 0.0, 0.015]), np.diag([0.01, 0.02, 0.03]))
     edge = {"pivot": (0.0, 0.0, -0.085), "edge": (0.0, 1.0, 0.0)}
     up = StandUp(name="up", **edge, pitch=pitch, duration=0.5)
-    asked = []
+    required = []
     for speed in (0.0, -50.0 * np.sign(pitch), 50.0 * np.sign(pitch)):
         climb = replace(up, wheel_speed=speed).on(body)
-        needed = Requirement((climb,), None, 200.0, None, 0.1)
-        asked.append(spin_demands(needed, body.inertia, 0.6)[0].spin_inertia)
-    assert asked[0] / asked[1] == pytest.approx(250.0 / 200.0)
-    assert asked[0] / asked[2] == pytest.approx(150.0 / 200.0)
+        requirement = Requirement((climb,), None, 200.0, None, 0.1)
+        required.append(spin_demands(requirement, body.inertia, 0.6)[0].spin_inertia)
+    assert required[0] / required[1] == pytest.approx(250.0 / 200.0)
+    assert required[0] / required[2] == pytest.approx(150.0 / 200.0)
 
 
 def test_an_impulse_turns_about_the_edge_by_the_inertia_there():
     body = MassProperties(2.0, np.array([0.0, 0.0, 0.015]), np.diag([0.01, 0.02, 0.03]))
     hit = Balance(name="hit", **EDGE, impulse=(0.3, -0.5, 0.0), point=(0.0, 0.0, 0.115), duration=1)
     rate = hit.on(body).struck
-    # Half a newton second to the right at 0.2 m about 0.01 + 2 (0.1 m)^2.
+    # 0.5 N s to the right at 0.2 m about 0.01 + 2 (0.1 m)^2.
     np.testing.assert_allclose(rate, [0.5 * 0.2 / 0.03, 0.0, 0.0], atol=1e-14)
 
 
-def test_a_robot_cannot_stand_on_what_is_above_it():
+def test_a_pivot_above_the_centre_of_mass_is_refused():
     body = MassProperties(1.0, np.array([0.0, 0.0, -0.1]), np.eye(3))
-    with pytest.raises(SpecificationError, match="pivot is 15 mm above") as told:
+    with pytest.raises(SpecificationError, match="pivot is 15 mm above") as caught:
         Balance(name="b", **EDGE, roll=0.1, duration=1.0).on(body)
-    assert "-100 mm" in told.value.hint
+    assert "-100 mm" in caught.value.hint
     with pytest.raises(SpecificationError, match="edge is vertical"):
         Balance(name="b", edge=(0.0, 0.0, 1.0), pivot=EDGE["pivot"], duration=1.0).on(body)
 
 
 @pytest.mark.parametrize(
-    ("changed", "told"),
+    ("changed", "message"),
     [
         ('pitch = "5deg"', "axis other than the edge, which is along (1, 0, 0)"),
         ('roll = "120deg"', "below its pivot: 90 deg at most"),
@@ -120,7 +120,7 @@ def test_a_robot_cannot_stand_on_what_is_above_it():
         ('actuation = "spring"', "one of motor, brake"),
     ],
 )
-def test_what_no_pivot_allows_is_refused(changed, told):
+def test_invalid_pivoted_maneuvers_are_refused(changed, message):
     text = """
         [robot]
         mass = 1.0
@@ -139,4 +139,4 @@ def test_what_no_pivot_allows_is_refused(changed, told):
     lines = [line for line in text.splitlines() if line.split() and line.split()[0] != key]
     with pytest.raises(SpecificationError) as error:
         resolve(parse_specification("\n".join([*lines, changed]), "spec"), ROBOT, 1.0)
-    assert any(told in each for each in error.value.problems), error.value.problems
+    assert any(message in each for each in error.value.problems), error.value.problems

@@ -1,4 +1,4 @@
-"""Specification files, right and wrong."""
+"""Reading of specification files and options, valid and invalid."""
 
 from pathlib import Path
 
@@ -26,7 +26,7 @@ FLIP = "[[maneuver]]\nkind='flip'\nname='f'\njump_height=1\nangle='1rev'\ndurati
 TURN = "[[maneuver]]\nkind='turn'\nname='t'\nyaw='90deg'\nduration=0.9\n"
 
 
-def test_every_kind_of_value_in_a_file_and_as_an_option():
+def test_file_and_options_give_the_same_specification():
     specification = parse_specification(
         """
         [robot]
@@ -74,16 +74,16 @@ def test_every_kind_of_value_in_a_file_and_as_an_option():
     }
     assert specification_from_options(options) == specification
     assert parse_specification(specification_to_toml(specification), "again") == specification
-    robot, room = specification.robot, specification.flywheel
+    robot, flywheel = specification.robot, specification.flywheel
     assert robot.joints == {"hip": pytest.approx(np.radians(10.0)), "slide": 0.005, "knee": -1.6}
     assert (robot.mass, robot.inertia) == (2.5, (0.03, 0.05, 0.07))
     assert specification.ocs.position == (-0.05, 0.1, 0.0)
-    assert (room.r_max, room.h_max, room.stress_safety) == (0.03, None, 1.5)
+    assert (flywheel.r_max, flywheel.h_max, flywheel.stress_safety) == (0.03, None, 1.5)
     assert (specification.validation.enabled, specification.validation.seed) == (False, 7)
     assert not specification.takes_default_maneuvers
 
 
-def test_maneuvers_fill_their_own_defaults_and_the_files_gravity():
+def test_maneuvers_take_their_defaults_and_the_files_gravity():
     text = f"[requirement]\ngravity = 3.71\n{DROP}{FLIP}gravity = 1.62\n"
     drop, flip = parse_specification(text, "x").maneuvers
     assert (drop.gravity, drop.roll, drop.incidence) == (3.71, 0.0, None)
@@ -125,11 +125,11 @@ FAULTS = {
 }
 
 
-def test_all_faults_are_told_at_once_each_with_its_key():
+def test_all_faults_are_reported_together_with_their_keys():
     text = "\n".join("\n".join((heading, *lines)) for heading, lines in FAULTS.items())
     with pytest.raises(SpecificationError) as caught:
         parse_specification(text, "my.toml")
-    expected = [told for lines in FAULTS.values() for told in lines.values()]
+    expected = [fault for lines in FAULTS.values() for fault in lines.values()]
     problems = caught.value.problems
     for start, word in expected:
         assert [line for line in problems if line.startswith(start) and word in line], (start, word)
@@ -178,7 +178,7 @@ def test_all_faults_are_told_at_once_each_with_its_key():
         ("[flywheel]\n" + "r_max." * 100 + "a = 1", "flywheel.r_max: {'r_max': .* is not a number"),
     ],
 )
-def test_faults_one_by_one(text, problem):
+def test_single_faults(text, problem):
     with pytest.raises(SpecificationError, match=problem) as caught:
         parse_specification(text, "x")
     assert caught.value.problems
@@ -197,7 +197,7 @@ def test_faults_one_by_one(text, problem):
         (b"\x00", "not TOML"),
     ],
 )
-def test_files_that_are_no_specification(tmp_path, content, message):
+def test_invalid_files_are_refused(tmp_path, content, message):
     path = tmp_path / "x.toml"
     path.write_bytes(content)
     with pytest.raises(SpecificationError, match=message) as caught:
@@ -205,20 +205,20 @@ def test_files_that_are_no_specification(tmp_path, content, message):
     assert "x.toml" in str(caught.value)
 
 
-def test_a_file_that_is_not_there(tmp_path):
+def test_a_missing_file_is_refused(tmp_path):
     with pytest.raises(SpecificationError, match="No such file"):
         read_specification(tmp_path / "none.toml")
     with pytest.raises(SpecificationError, match="directory"):
         read_specification(tmp_path)
 
 
-def test_a_byte_order_mark_does_no_harm(tmp_path):
+def test_a_byte_order_mark_is_accepted(tmp_path):
     path = tmp_path / "x.toml"
     path.write_bytes(b"\xef\xbb\xbf[flywheel]\nr_max = '30mm'\n")
     assert read_specification(path).flywheel.r_max == 0.03
 
 
-def test_the_robots_file_is_taken_from_the_files_folder(tmp_path):
+def test_the_robots_path_is_relative_to_the_file(tmp_path):
     path = tmp_path / "x.toml"
     path.write_text("[robot]\nfile = 'sub/robot.urdf'\n")
     assert read_specification(path).robot.file == str(tmp_path / "sub" / "robot.urdf")
@@ -229,14 +229,14 @@ def test_the_robots_file_is_taken_from_the_files_folder(tmp_path):
 
 
 @given(text=st.text(alphabet="[]=\"'{}.,#\n abr_max0123-", max_size=120))
-def test_no_text_does_worse_than_an_error_of_ours(text):
+def test_random_text_raises_only_specification_errors(text):
     try:
         parse_specification(text, "x")
     except OcsError as error:
         assert isinstance(error, SpecificationError)
 
 
-def test_options_that_are_wrong_are_named_as_typed():
+def test_faults_of_options_are_named_as_typed():
     with pytest.raises(UsageError) as caught:
         specification_from_options(
             {"flywheel.r_max": "30V", "robot.joints": ["hip=x"], "ocs.alpha": "40"}
@@ -249,20 +249,20 @@ def test_options_that_are_wrong_are_named_as_typed():
         specification_from_options({"robot.joints": ["hip"]})
 
 
-def test_example_of_solo12_states_the_paper_and_turns_its_modules_by_hand(solo12):
+def test_the_example_of_solo12_is_the_paper_with_modules_turned_by_hand(solo12):
     specification = read_specification(EXAMPLES / "solo12.toml")
     assert Path(specification.robot.file).name == "solo12.urdf"
     assert specification.requirement.spin_inertia == 7.11e-5
     assert (specification.flywheel.r_max, specification.flywheel.h_max) == (0.03, 0.01)
     assert specification.ocs.alpha == pytest.approx(np.radians(40.0))
-    specified = specification.maneuvers
-    assert [maneuver.incidence for maneuver in specified] == [None, None, 0.0]
-    for one, other in zip(specified, default_maneuvers(solo12), strict=True):
+    maneuvers = specification.maneuvers
+    assert [maneuver.incidence for maneuver in maneuvers] == [None, None, 0.0]
+    for one, other in zip(maneuvers, default_maneuvers(solo12), strict=True):
         assert type(one) is type(other)
         assert {**vars(one), "incidence": None} == vars(other)
 
 
-def test_the_voltage_of_older_files_is_that_of_the_supply():
+def test_the_bus_voltage_of_older_files_is_that_of_the_supply():
     old = parse_specification('motor.bus_voltage = "22.2 V"', "old.toml")
     assert old.supply.voltage == 22.2
     both = 'motor.bus_voltage = "22.2 V"\nsupply.voltage = "24 V"\nmotor.gear = "direct"'
@@ -270,25 +270,25 @@ def test_the_voltage_of_older_files_is_that_of_the_supply():
     assert parse_specification(both, "both.toml").motor.gear == "direct"
 
 
-def test_controllers_are_words_or_a_mass():
+def test_controllers_are_a_word_or_a_mass():
     for text, value in (('"none"', "none"), ('"Auto"', "auto"), ('"35 g"', 0.035)):
         read = parse_specification(f"supply.controllers = {text}", "s.toml").supply.controllers
         assert read == value
-    for text, told in (
+    for text, message in (
         ("nome", "'nome' is neither a number nor one of auto, none. Did you mean 'none'?"),
         ("35 V", "'35 V' has a unit of voltage, not of mass"),
         ("", "is empty"),
     ):
         with pytest.raises(SpecificationError) as caught:
             parse_specification(f'supply.controllers = "{text}"', "s.toml")
-        assert f"supply.controllers: {told}" in str(caught.value)
+        assert f"supply.controllers: {message}" in str(caught.value)
 
 
 @pytest.mark.parametrize(
     ("text", "cure"),
     [("0,90,45deg/s", "0deg/s,90deg/s,45deg/s"), ("0,800,0mN m", "0mN m,800mN m,0mN m")],
 )
-def test_a_unit_at_the_end_of_a_row_is_not_taken_for_that_of_its_last_value(text, cure):
+def test_a_single_unit_at_the_end_of_a_row_is_ambiguous(text, cure):
     dimension = Dimension.TORQUE if "N" in text else Dimension.ANGULAR_SPEED
     row = Quantities(dimension, (3,))
     with pytest.raises(QuantityError, match="only the last value") as caught:
@@ -299,6 +299,6 @@ def test_a_unit_at_the_end_of_a_row_is_not_taken_for_that_of_its_last_value(text
 
 
 @pytest.mark.parametrize("unit", ["", "kg m2", " kg*m^2"])
-def test_where_it_makes_no_difference_it_may_stand_at_the_end(unit):
+def test_a_single_si_unit_at_the_end_of_a_row_is_accepted(unit):
     row = Quantities(Dimension.INERTIA, (3,))
     assert row.read(f"0.03,0.05,0.07{unit}", "x") == (0.03, 0.05, 0.07)

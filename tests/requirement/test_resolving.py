@@ -1,4 +1,4 @@
-"""Defaults filled in and told, and faults that only the robot shows."""
+"""Defaults and their reported assumptions, and faults that depend on the robot."""
 
 import re
 from dataclasses import asdict, replace
@@ -28,25 +28,25 @@ def specified(text: str) -> Specification:
     return parse_specification(text, "x")
 
 
-@pytest.mark.parametrize("asked", [{}, {"fall": "1m"}, {"flip": "back"}])
-def test_options_that_contradict_each_other_are_refused_as_in_a_file(solo12, asked):
-    keys = {f"requirement.{key}": value for key, value in asked.items()}
+@pytest.mark.parametrize("words", [{}, {"fall": "1m"}, {"flip": "back"}])
+def test_options_that_contradict_each_other_are_refused_as_in_a_file(solo12, words):
+    keys = {f"requirement.{key}": value for key, value in words.items()}
     options = specification_from_options({"requirement.gravity": "orbit", **keys})
-    key = next(iter(asked), "maneuvers")
+    key = next(iter(words), "maneuvers")
     problem, *_ = problems_of(options, solo12, SIZE)
     assert problem.startswith(f"requirement.{key}: nothing jumps or falls")
 
 
-def check_told(resolved, *words):
-    told = "\n".join(resolved.assumptions)
-    assert [each for each in words if each not in told] == []
+def check_assumptions(resolved, *words):
+    text = "\n".join(resolved.assumptions)
+    assert [each for each in words if each not in text] == []
     assert all(sentence.endswith(".") for sentence in resolved.assumptions)
 
 
-def test_nothing_stated_is_everything_assumed(solo12):
+def test_all_defaults_are_reported(solo12):
     resolved = resolve(Specification(), solo12, SIZE)
     assert resolved.envelope == default_envelope(solo12)
-    check_told(
+    check_assumptions(
         resolved,
         "the paper's three",
         "Supply: 24 V, at most 1 kW (400 W per kg of robot).",
@@ -60,24 +60,23 @@ def test_nothing_stated_is_everything_assumed(solo12):
     )
 
 
-def test_a_stated_current_that_is_the_tighter_limit_leaves_no_power_to_assume(solo12):
+def test_no_power_is_assumed_where_a_specified_current_is_the_tighter_limit(solo12):
     """24 V at 30 A are 720 W, less than 400 W per kg of 2.5 kg; at 100 A they are more."""
-    for current, told in ((30.0, False), (100.0, True)):
-        asked = Specification(supply=SupplySection(current_max=current))
-        (supply,) = (
-            each for each in resolve(asked, solo12, SIZE).assumptions if each.startswith("Supply")
-        )
-        assert ("at most 1 kW" in supply) == told
+    for current, assumed in ((30.0, False), (100.0, True)):
+        specification = Specification(supply=SupplySection(current_max=current))
+        assumptions = resolve(specification, solo12, SIZE).assumptions
+        (supply,) = (each for each in assumptions if each.startswith("Supply"))
+        assert ("at most 1 kW" in supply) == assumed
 
 
-def test_nothing_stated_but_that_there_is_no_motor(solo12):
+def test_all_defaults_without_a_motor_are_reported(solo12):
     resolved = resolve(Specification(motor=MotorSection(name="none")), solo12, SIZE)
     assert (resolved.choice, resolved.torque_max) == (None, None)
     assert resolved.material.name == "stainless-304"
     requirement = resolved.requirement
     assert (requirement.wheel_speed_max, requirement.rate_change) == (WHEEL_SPEED_MAX, None)
     assert [item.name for item in requirement.maneuvers] == ["disturbance", "drop", "back-flip"]
-    check_told(
+    check_assumptions(
         resolved,
         "the paper's three",
         "falls from 1 m at roll 0 deg and pitch 30 deg",
@@ -88,26 +87,26 @@ def test_nothing_stated_but_that_there_is_no_motor(solo12):
     )
 
 
-def test_what_is_stated_is_not_assumed(solo12):
+def test_what_is_specified_is_not_assumed(solo12):
     resolved = resolve(read_specification(EXAMPLES / "solo12.toml"), solo12, SIZE)
     assert resolved.envelope.outer_radius_max == 0.03
     assert resolved.requirement.spin_inertia == 7.11e-5
-    told = "\n".join(resolved.assumptions)
-    assert "rpm" not in told
-    assert "r_max" not in told
-    assert "h_min 2, wall_min 2 mm" in told
-    assert "not checked, because the strength of stainless-paper is not known" in told
+    text = "\n".join(resolved.assumptions)
+    assert "rpm" not in text
+    assert "r_max" not in text
+    assert "h_min 2, wall_min 2 mm" in text
+    assert "not checked, because the strength of stainless-paper is not known" in text
 
 
-def test_the_papers_wheel_needs_the_speed_that_the_example_allows(solo12):
-    """The back-flip at alpha 0 takes 7.11e-5 kg m^2 to some 23,000 rpm (docs/validation.md)."""
+def test_the_papers_wheel_is_sufficient_at_the_speed_of_the_example(solo12):
+    """The back-flip at alpha 0 spins 7.11e-5 kg m^2 up to 23,000 rpm (docs/validation.md)."""
     requirement = resolve(read_specification(EXAMPLES / "solo12.toml"), solo12, SIZE).requirement
     total = solo12.inertia + np.diag([1e-3, 2e-3, 2e-3])
     demands = spin_demands(requirement, total, np.radians(40.0))
     assert max(demand.spin_inertia for demand in demands) < requirement.spin_inertia
 
 
-def test_a_robot_without_legs_is_told_its_height(make_robot):
+def test_the_assumed_height_of_a_robot_without_legs_is_reported(make_robot):
     robot = make_robot(12.0, (0.19, 0.33, 0.42), None)
     resolved = resolve(read_specification(EXAMPLES / "by_hand.toml"), robot, 0.8)
     assert "No legs" in resolved.assumptions[0]
@@ -115,16 +114,17 @@ def test_a_robot_without_legs_is_told_its_height(make_robot):
     assert len(resolved.requirement.maneuvers) == 3
 
 
-def test_the_box_that_stands_for_the_trunk_of_a_robot_by_hand_is_told():
-    """The solid box of mass m with the sides a, b, c has I_xx = m (b^2 + c^2) / 12, and so on."""
-    assumed = resolve(Specification(), robot_by_hand(12.0, (0.13, 0.37, 0.4)), 0.8).assumptions
-    (told,) = (each for each in assumed if each.startswith("Trunk"))
-    assert "a solid box of 566 x 283 x 224 mm" in told
-    assert "--position" in told
-    assert not any(
-        each.startswith("Trunk")
-        for each in resolve(Specification(), person(75.0, 1.75), 0.8).assumptions
-    )
+def test_the_assumed_trunk_of_a_robot_by_hand_is_reported():
+    """A solid box of mass m with edges a, b, c has I_xx = m (b^2 + c^2) / 12, and so on."""
+
+    def trunk_of(robot):
+        assumptions = resolve(Specification(), robot, 0.8).assumptions
+        return [each for each in assumptions if each.startswith("Trunk")]
+
+    (trunk,) = trunk_of(robot_by_hand(12.0, (0.13, 0.37, 0.4)))
+    assert "a solid box of 566 x 283 x 224 mm" in trunk
+    assert "--position" in trunk
+    assert trunk_of(person(75.0, 1.75)) == []
 
 
 @pytest.mark.parametrize(
@@ -149,7 +149,7 @@ def test_the_box_that_stands_for_the_trunk_of_a_robot_by_hand_is_told():
          "there is no fall. Release it higher."),
     ],
 )  # fmt: skip
-def test_what_cannot_be_meant_is_asked_about(solo12, text, problem):
+def test_implausible_values_are_refused_with_a_suggestion(solo12, text, problem):
     assert any(problem in line for line in problems_of(specified(text), solo12, SIZE))
 
 
@@ -162,9 +162,7 @@ def test_what_cannot_be_meant_is_asked_about(solo12, text, problem):
         ("maneuvers = 'paper'", ["disturbance", "drop", "back-flip"]),
     ],
 )
-def test_what_is_asked_for_is_the_requirement_and_nothing_is_added_unasked(
-    solo12, key, maneuvers, names
-):
+def test_a_specified_requirement_replaces_the_default_maneuvers(solo12, key, maneuvers, names):
     resolved = resolve(specified(f"[requirement]\n{key}\n{maneuvers}"), solo12, SIZE)
     assert [item.name for item in resolved.requirement.maneuvers] == names
     assert ("the paper's three" in "\n".join(resolved.assumptions)) == bool(names)
@@ -188,8 +186,8 @@ IDLE = [
 
 
 @pytest.mark.parametrize("beside", [{}, {"tilt": "20deg"}])
-def test_what_asks_nothing_of_the_device_is_told_by_its_name_and_its_keys(solo12, beside):
-    """Beside another maneuver it was sized for, and ended in "needs a wheel of 0 kg m^2"."""
+def test_maneuvers_that_require_nothing_are_refused(solo12, beside):
+    """Beside another maneuver they once ended in "needs a wheel of 0 kg m^2"."""
     problems = problems_of(specify(maneuver=IDLE, requirement=beside), solo12, SIZE)
     for name, keys in (
         ("level", "roll and pitch are 0"),
@@ -197,42 +195,41 @@ def test_what_asks_nothing_of_the_device_is_told_by_its_name_and_its_keys(solo12
         ("twist", "torque about roll and pitch is 0"),
         ("calm", "torque about roll and pitch is 0"),
     ):
-        told = f"maneuver.{name}: {keys}, which requires nothing of the device"
-        assert told in problems
+        assert f"maneuver.{name}: {keys}, which requires nothing of the device" in problems
 
 
 @pytest.mark.parametrize("others", [{}, {"tilt": "20deg"}])
 @pytest.mark.parametrize(
-    ("rates", "told"),
+    ("rates", "message"),
     [
         ("yaw 60deg/s", "cannot stop a yaw of 60 deg/s: leave yaw out"),
         ("pitch 30deg/s yaw -60deg/s", "cannot stop a yaw of -60 deg/s: leave yaw out"),
     ],
 )
-def test_a_yaw_that_the_wheels_cannot_stop_is_refused(solo12, others, rates, told):
-    """A catch of yaw passed with two wheels, as it passes without a device."""
-    asked = {"catch": rates, **others}
-    assert any(told in each for each in problems_of(specify(requirement=asked), solo12, SIZE))
+def test_a_yaw_that_the_wheels_cannot_stop_is_refused(solo12, others, rates, message):
+    """A catch of yaw once passed with two wheels, as it does without a device."""
+    words = {"catch": rates, **others}
+    assert any(message in each for each in problems_of(specify(requirement=words), solo12, SIZE))
     for ocs in ({"layout": "orthogonal"}, {"axes": [1, 0, 1, 0, 1, 1, 1, 1, 0]}):
-        resolve(specify(requirement=asked, ocs=ocs), solo12, SIZE)
+        resolve(specify(requirement=words, ocs=ocs), solo12, SIZE)
 
 
-def test_a_flip_that_does_not_end_level_is_refused_with_what_to_use(solo12):
+def test_a_flip_that_does_not_end_level_is_refused_with_a_turn_to_use(solo12):
     flip = specify(requirement={"flip": "90deg", "gravity": "moon"})
-    (told,) = problems_of(flip, solo12, SIZE)
-    assert "after 90 deg the trunk is 90 deg off level, but a flip must land level" in told
-    turn = re.search(r"'(pitch 90deg in .*)'", told).group(1)
+    (problem,) = problems_of(flip, solo12, SIZE)
+    assert "after 90 deg the trunk is 90 deg off level, but a flip must land level" in problem
+    turn = re.search(r"'(pitch 90deg in .*)'", problem).group(1)
     resolve(specify(requirement={"turn": turn, "gravity": "moon"}), solo12, SIZE)
     resolve(specify(requirement={"flip": "-720deg", "gravity": "moon"}), solo12, SIZE)
 
 
-def test_beside_what_asks_for_something_it_is_no_demand(solo12):
-    asked = specify(maneuver=IDLE, requirement={"rate_change": 2})
-    assert len(resolve(asked, solo12, SIZE).requirement.maneuvers) == 4
+def test_idle_maneuvers_are_accepted_beside_a_rate_change(solo12):
+    specification = specify(maneuver=IDLE, requirement={"rate_change": 2})
+    assert len(resolve(specification, solo12, SIZE).requirement.maneuvers) == 4
 
 
 @pytest.mark.parametrize(
-    ("kind", "key", "raw", "told"),
+    ("kind", "key", "raw", "message"),
     [
         (DROP, "pitch", "20", "20 rad is above 3.142 rad. Did you mean 20deg?"),
         (DROP, "pitch", "-20", "-20 rad is below -3.142 rad. Did you mean -20deg?"),
@@ -244,7 +241,7 @@ def test_beside_what_asks_for_something_it_is_no_demand(solo12):
         (FLIP, "angle", "'11 rev'", "11 rev is above 10 rev"),
         (FLIP, "incidence", "'400deg'", "400deg is above 90 deg"),
         ("[requirement]", "wheel_speed_max", "9000", "Did you mean 9000rpm?"),
-        # What can be meant is read.
+        # Plausible values are accepted.
         (FLIP, "angle", "'-360deg'", ""),
         (FLIP, "angle", "-6.2832", ""),
         (FLIP, "angle", "'3 rev'", ""),
@@ -252,57 +249,57 @@ def test_beside_what_asks_for_something_it_is_no_demand(solo12):
         ("[requirement]", "wheel_speed_max", "'12566rad/s'", ""),
     ],
 )
-def test_figures_that_were_meant_in_another_unit_are_asked_about(kind, key, raw, told):
-    if not told:
+def test_values_probably_meant_in_another_unit_are_refused(kind, key, raw, message):
+    if not message:
         specified(f"{kind}\n{key} = {raw}")
         return
     with pytest.raises(SpecificationError) as caught:
         specified(f"{kind}\n{key} = {raw}")
-    assert any(f".{key}: " in line and told in line for line in caught.value.problems)
+    assert any(f".{key}: " in line and message in line for line in caught.value.problems)
 
 
 LARGE_SIZE = 2.0
 GAINS = {"kp": 60.0, "kd": 12.0}
 
 
-def default_stated(robot):
-    """Every default as if it were stated; by name the paper's three would contradict themselves."""
+def specified_defaults(robot):
+    """Every default, specified; the paper's three by name would contradict their tables."""
     default = default_specification(robot, **GAINS)
     return replace(default, requirement=replace(default.requirement, maneuvers=None))
 
 
 @pytest.fixture
 def large(make_robot):
-    """Of another mass, height and shape than Solo12, on another bus."""
+    """A robot of another mass, height and shape than Solo12, with another voltage."""
     return make_robot(50.0, (2.0, 5.0, 6.0), 0.5)
 
 
 @pytest.mark.parametrize("robot", ["solo12", "large"])
-def test_stating_every_default_changes_nothing(robot, request):
+def test_specifying_every_default_changes_nothing(robot, request):
     robot = request.getfixturevalue(robot)
-    both = Specification(), default_stated(robot)
-    assumed, told = (resolve(each, robot, LARGE_SIZE) for each in both)
-    assert told.envelope == assumed.envelope
-    assert asdict(told.requirement) == asdict(assumed.requirement)
+    both = Specification(), specified_defaults(robot)
+    assumed, explicit = (resolve(each, robot, LARGE_SIZE) for each in both)
+    assert explicit.envelope == assumed.envelope
+    assert asdict(explicit.requirement) == asdict(assumed.requirement)
     for name in ("motors", "gears", "materials", "supply", "wheel_speed_max"):
-        assert getattr(told.choice, name) == getattr(assumed.choice, name)
+        assert getattr(explicit.choice, name) == getattr(assumed.choice, name)
 
 
-def test_only_that_a_design_keeps_a_reserve_stays_an_assumption(solo12):
-    left = " ".join(resolve(default_stated(solo12), solo12, LARGE_SIZE).assumptions)
-    for said in ("Rim:", "Rim mass", "Supply:", "Web:", "Stress:", "paper's three"):
-        assert said not in left
-    assert "Reserve" in left
+def test_with_all_defaults_specified_only_the_reserve_is_assumed(solo12):
+    text = " ".join(resolve(specified_defaults(solo12), solo12, LARGE_SIZE).assumptions)
+    for words in ("Rim:", "Rim mass", "Supply:", "Web:", "Stress:", "paper's three"):
+        assert words not in text
+    assert "Reserve" in text
 
 
-def test_maneuvers_fall_as_gravity_has_it(solo12):
+def test_default_maneuvers_scale_with_gravity(solo12):
     disturbance, drop, flip = default_specification(solo12, **GAINS, gravity=3.7).maneuvers
     assert disturbance.gravity == drop.gravity == 3.7
     np.testing.assert_allclose(disturbance.takeoff_velocity[1], 2.4 * np.sqrt(3.7 / 9.81))
     assert flip.gravity == 1.62
 
 
-TOLD = "the parts' masses add up to 2.5"
+MASS_WARNING = "the parts' masses add up to 2.5"
 
 
 def warnings_of(weighed, **options):
@@ -313,11 +310,11 @@ def warnings_of(weighed, **options):
 @pytest.mark.parametrize(
     ("weighed", "word"), [(2.7, "missing"), (2.53, ""), (2.47, ""), (2.2, "too heavy")]
 )
-def test_parts_that_do_not_add_up_are_told(weighed, word):
-    told = [warning for warning in warnings_of(weighed) if warning.startswith(TOLD)]
-    assert [word in each for each in told] == [True] * bool(word)
+def test_masses_that_do_not_add_up_are_reported(weighed, word):
+    found = [warning for warning in warnings_of(weighed) if warning.startswith(MASS_WARNING)]
+    assert [word in each for each in found] == [True] * bool(word)
     if word:
-        with pytest.raises(RobotError, match=TOLD):
+        with pytest.raises(RobotError, match=MASS_WARNING):
             warnings_of(weighed, strict=True)
 
 
@@ -331,18 +328,16 @@ RAIL = robot(
 
 
 @pytest.mark.parametrize(
-    ("joint", "fits", "not_"), [("hip", "10deg", "10mm"), ("rail", "10mm", "10deg")]
+    ("joint", "valid", "invalid"), [("hip", "10deg", "10mm"), ("rail", "10mm", "10deg")]
 )
-def test_a_joint_that_turns_takes_no_length_and_one_that_slides_no_angle(
-    joint, fits, not_, tmp_path
-):
+def test_hinges_take_angles_and_slides_take_lengths(joint, valid, invalid, tmp_path):
     (path := tmp_path / "robot.urdf").write_bytes(RAIL)
 
     def posture(value):
         options = {"robot.file": str(path), "robot.joints": [f"{joint}={value}"]}
         return read_specified_robot(specification_from_options(options), sure=False).posture[joint]
 
-    assert posture(fits) > 0.0
+    assert posture(valid) > 0.0
     assert posture("0.5") == 0.5
     with pytest.raises(UsageError, match=f"'{joint}'"):
-        posture(not_)
+        posture(invalid)

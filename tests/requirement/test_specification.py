@@ -1,4 +1,4 @@
-"""The table of keys, and how a command line's specification overrides a file's."""
+"""The table of keys, and how options override a file."""
 
 from dataclasses import MISSING, fields
 
@@ -19,15 +19,15 @@ def test_every_key_is_optional_read_and_explained():
     assert all(key.value.takes and key.summary and key.why for key in all_keys().values())
 
 
-def test_options_have_names_of_their_own():
+def test_names_of_options_are_unique():
     names = [key.option or path.split(".")[1] for path, key in all_keys().items()]
     assert len(names) == len(set(names))
 
 
 def test_each_kind_of_maneuver_reads_each_of_its_fields():
     for kind in MANEUVER_KINDS.values():
-        # Nobody states how far a closed form is from a plan, whether the wheels reach the
-        # vertical, or the robot's mass once more.
+        # Users cannot specify the ratio of plan to closed form, whether the wheels control yaw, or
+        # the robot's mass.
         assert set(kind.values) == {item.name for item in fields(kind.maneuver)} - {
             "estimate",
             "stretch",
@@ -39,13 +39,13 @@ def test_each_kind_of_maneuver_reads_each_of_its_fields():
     assert "roll" not in MANEUVER_KINDS["drop"].required
 
 
-def test_each_limit_of_the_room_has_its_key():
+def test_each_limit_of_the_envelope_has_a_key():
     assert set(LIMIT_OF_KEY.values()) == {item.name for item in fields(Envelope)}
     assert set(LIMIT_OF_KEY) < {item.name for item in fields(FlywheelSection)}
     assert all(item.default is MISSING for item in fields(Envelope))
 
 
-def test_what_is_stated_last_wins_and_the_rest_stays():
+def test_merging_overrides_only_what_is_specified():
     base = Specification(
         robot=RobotSection(file="a.urdf", joints={"hip": 1.0, "knee": 2.0}),
         flywheel=FlywheelSection(r_max=0.03, h_max=0.01),
@@ -84,7 +84,7 @@ def test_a_robot_by_file_and_one_by_hand_replace_each_other(base, override):
     assert merged.name == "x"
 
 
-def test_the_mass_by_hand_changes_alone():
+def test_the_mass_of_a_robot_by_hand_can_be_overridden_alone():
     base = Specification(robot=RobotSection(mass=2.0, inertia=(1.0, 1.0, 1.0)))
     merged = merge(base, Specification(robot=RobotSection(mass=3.0))).robot
     assert (merged.mass, merged.inertia) == (3.0, (1.0, 1.0, 1.0))

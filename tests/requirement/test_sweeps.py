@@ -1,4 +1,4 @@
-"""Each figure varied alone, and all else kept."""
+"""Sweeps vary one figure and keep all others."""
 
 from dataclasses import replace
 from math import hypot, radians
@@ -14,7 +14,7 @@ from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.sweep import SWEEPS, Task, sweep_of
 from ocs_design.requirement.turns import Drop
 
-ROLLED = """
+WITH_ROLL = """
 [[maneuver]]
 name = "push"
 kind = "disturbance"
@@ -48,14 +48,14 @@ def task(solo12):
 
 
 def varied(sweep, value, task):
-    """The task with its figure at another value, resolved anew."""
+    """The task with the sweep's figure at another value."""
     return task.with_specification(sweep.at(value, task))
 
 
 @pytest.mark.parametrize("name", SWEEPS)
-@pytest.mark.parametrize("text", ["", ROLLED])
+@pytest.mark.parametrize("text", ["", WITH_ROLL])
 @pytest.mark.parametrize("ratio", [0.9, 1.0, 1.3])
-def test_the_value_asked_for_is_the_value_got(task, name, text, ratio):
+def test_a_sweep_sets_its_value(task, name, text, ratio):
     sweep, specified = SWEEPS[name], task(text)
     value = ratio * sweep.own(specified)
     assert sweep.own(varied(sweep, value, specified)) == pytest.approx(value, rel=1e-14)
@@ -70,21 +70,21 @@ def test_own_values_of_solo12(task):
     assert SWEEPS["voltage"].own(specified) == 24.0
 
 
-def test_a_fall_that_takes_longer_starts_higher_and_the_jump_of_a_longer_turn_is_higher(task):
-    longer = varied(SWEEPS["time"], 2.0 * SWEEPS["time"].own(task(ROLLED)), task(ROLLED))
+def test_longer_falls_and_flips_start_higher(task):
+    longer = varied(SWEEPS["time"], 2.0 * SWEEPS["time"].own(task(WITH_ROLL)), task(WITH_ROLL))
     push, drop, flip = longer.maneuvers
     standing = longer.standing_height
     assert drop.height - standing == pytest.approx(4.0 * (0.8 - standing))
     assert (drop.roll, drop.pitch) == pytest.approx((radians(-12.0), radians(9.0)))
     assert flip.duration == pytest.approx(1.5)
     assert flip.flight_time / flip.duration == pytest.approx(
-        task(ROLLED).maneuvers[2].flight_time / 0.75
+        task(WITH_ROLL).maneuvers[2].flight_time / 0.75
     )
-    assert vars(push) == vars(task(ROLLED).maneuvers[0])
+    assert vars(push) == vars(task(WITH_ROLL).maneuvers[0])
 
 
 def test_a_larger_angle_keeps_direction_and_sign(task):
-    wider = varied(SWEEPS["angle"], 1.5 * hypot(radians(12.0), radians(9.0)), task(ROLLED))
+    wider = varied(SWEEPS["angle"], 1.5 * hypot(radians(12.0), radians(9.0)), task(WITH_ROLL))
     push, drop, flip = wider.maneuvers
     assert (drop.roll, drop.pitch) == pytest.approx((radians(-18.0), radians(13.5)))
     assert drop.height == 0.8
@@ -92,27 +92,27 @@ def test_a_larger_angle_keeps_direction_and_sign(task):
     assert isinstance(push, Disturbance)
 
 
-def test_one_maneuver_alone(task):
+def test_a_sweep_of_one_maneuver(task):
     sweep = sweep_of("time", "back-flip")
-    assert sweep.own(task(ROLLED)) == 0.75
-    _, drop, flip = varied(sweep, 0.7, task(ROLLED)).maneuvers
+    assert sweep.own(task(WITH_ROLL)) == 0.75
+    _, drop, flip = varied(sweep, 0.7, task(WITH_ROLL)).maneuvers
     assert isinstance(drop, Drop)
     assert drop.height == 0.8
     assert flip.duration == pytest.approx(0.7)
 
 
-def test_what_else_moves_is_said(task):
-    remarks = " ".join(SWEEPS["time"].remarks(task(ROLLED)))
+def test_remarks_name_what_varies_and_what_does_not(task):
+    remarks = " ".join(SWEEPS["time"].remarks(task(WITH_ROLL)))
     assert remarks == (
         "The time is that of 'drop'. Varied in proportion: back-flip. Not varied: push."
     )
-    alone = " ".join(sweep_of("angle", "back-flip").remarks(task(ROLLED)))
+    alone = " ".join(sweep_of("angle", "back-flip").remarks(task(WITH_ROLL)))
     assert alone == "The angle is that of 'back-flip'. Not varied: push, drop."
     assert SWEEPS["radius"].remarks(task()) == ()
 
 
-def test_the_paper_s_three_are_written_out(task):
-    """They are no longer scaled from Solo12 then, and asking for them by name would contradict."""
+def test_a_sweep_replaces_the_papers_three_by_tables(task):
+    """With a varied figure they are not the paper's any more."""
     specified = task('[requirement]\nmaneuvers = "paper"')
     specification = SWEEPS["time"].at(0.4, specified)
     assert len(specification.maneuvers) == 3
@@ -134,7 +134,7 @@ def test_the_paper_s_three_are_written_out(task):
         ),
     ],
 )
-def test_what_cannot_be_varied(task, name, maneuver, text, message):
+def test_invalid_sweeps_are_refused(task, name, maneuver, text, message):
     with pytest.raises(UsageError, match=message):
         sweep_of(name, maneuver).own(task(text))
 
@@ -146,8 +146,8 @@ def test_a_level_drop_has_no_angle_to_scale(task):
         SWEEPS["angle"].own(task(level))
 
 
-def test_a_variant_keeps_what_the_plan_of_a_turn_has_shown(solo12):
-    """A turn that was found to need 1.3 times its estimate does so in another room, too."""
+def test_a_variant_keeps_the_estimate_from_the_plan_of_a_turn(solo12):
+    """A turn that needs 1.3 times its closed form does so in another envelope, too."""
     words = Specification(requirement=RequirementSection(turn=(About(0.5, 0.0, 0.0, 0.5, "rad"),)))
     task = Task.of(words, solo12)
     task = replace(task, resolved=task.resolved.estimated({"turn": 1.3}))
