@@ -428,7 +428,7 @@ def build_gaps(motor: Motor) -> tuple[str, ...]:
     shaft = mounting.shaft_diameter, mounting.shaft_length
     missing = {
         "bolt circle of the stator": mounting.stator,
-        "bolt circle of the rotor, or diameter, length and form of the shaft": (
+        "bolt circle of the rotor or data of the shaft (diameter, length, form)": (
             mounting.rotor or (None if None in shaft else mounting.shaft_form)
         ),
         "body diameter": motor.diameter,
@@ -443,7 +443,7 @@ def build_gaps(motor: Motor) -> tuple[str, ...]:
     }
     gaps = tuple(name for name, figure in missing.items() if figure is None)
     if motor.kind is None:
-        return ("kind: outrunner or inrunner", *gaps)
+        return ("kind (outrunner or inrunner)", *gaps)
     if motor.kind is MotorKind.FRAMELESS:
-        return ("bearings: it is frameless, and modules have none", *gaps)
+        return ("bearings (it is frameless, and modules have none)", *gaps)
     return gaps

@@ -135,4 +135,4 @@ def campaign_remarks(record: MonteCarloRecord) -> Iterator[str]:
             yield f"{scenario.scenario}: {scenario.advice}"
         worst = ", ".join(map(str, scenario.worst))
         if worst:
-            yield f"{scenario.scenario}: the worst samples are {worst}"
+            yield f"{scenario.scenario}: worst samples {worst}"

@@ -247,7 +247,7 @@ def test_all_faults_at_once(load):
         "line 2 (A)",
         "line 3 (B)",
     ]
-    assert "it lacks kind: outrunner or inrunner, bolt circle" in caught.value.problems[-1]
+    assert "it lacks kind (outrunner or inrunner), bolt circle" in caught.value.problems[-1]
 
 
 @pytest.mark.parametrize("column", ["mass_kg", "resistance_ohm", "kt_nm_per_a"])

@@ -58,7 +58,7 @@ def test_the_text_of_sampled_flights(by_hand, folder):
         "level 1 of 1",
         "2 sampled robots",
         "95% interval",
-        "the worst samples are",
+        "worst samples ",
         "15.8 .. 100.0 %",
     ):
         assert part in output

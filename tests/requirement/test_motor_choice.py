@@ -203,7 +203,7 @@ def test_own_motors_replace_or_extend_the_catalogue(own):
     ("rows", "fault"),
     [
         ("", "has no motors"),
-        (OWN_MOTOR, "every motor lacks data needed to build: Own 1 lacks kind: outrunner"),
+        (OWN_MOTOR, "every motor lacks data needed to build: Own 1 lacks kind (outrunner"),
     ],
 )
 def test_a_file_without_a_buildable_motor_is_refused_under_its_key(tmp_path, rows, fault):

@@ -31,7 +31,10 @@ def print_bound(console: Console, answer: BoundAnswer) -> None:
         ],
     )
     note(console, BOUND_NOTE)
-    heading(console, "Required over robot's inertia in percent: wheel speed against rate change")
+    heading(
+        console,
+        "Required inertia over the robot's in percent, by wheel speed (rows) and rate change",
+    )
     rates = columns("<", *(f"{rate:.3g} [rad/s]" for rate in answer.rate_changes))
     rows = tuple(
         (rpm(speed), *(f"{100.0 * share:.3g}" if np.isfinite(share) else "-" for share in row))

@@ -155,11 +155,11 @@ def print_motors(console: Console, motors: Sequence[Motor]) -> None:
 def _first_gap(gaps: Sequence[str]) -> str:
     """The first gap in a word or two, and the number of further gaps; a dash if there is none.
 
-    These words are the start of the gap, up to a comma, a colon or `of the`.
+    These words are the start of the gap, up to a bracket or an `or`, without `of the`.
     """
     if not gaps:
         return "-"
-    label = re.split(r"[,:]", gaps[0])[0].replace(" of the", "").replace("bolt circle ", "")
+    label = re.split(r" \(| or ", gaps[0])[0].replace(" of the", "").replace("bolt circle ", "")
     return label if len(gaps) == 1 else f"{label} +{len(gaps) - 1}"
 
 
