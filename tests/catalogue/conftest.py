@@ -1,4 +1,4 @@
-"""Files of users, read."""
+"""Reading of users' catalogue files."""
 
 import pytest
 
@@ -7,7 +7,7 @@ from ocs_design.catalogue.motors import load_motors
 
 @pytest.fixture
 def load(tmp_path):
-    """Reads a text as a file with this suffix, of motors unless another reader is given."""
+    """A function that reads a text as a file with this suffix, by default of motors."""
 
     def write_and_load(text, suffix=".toml", read=load_motors):
         path = tmp_path / f"mine{suffix}"

@@ -1,4 +1,4 @@
-"""`catalogue motors` and `catalogue gears` as people and programs meet them."""
+"""`catalogue motors`, `gears` and `materials`: tables and JSON."""
 
 import csv
 import re
@@ -20,54 +20,54 @@ remark = "wound by hand"
 """
 
 
-@pytest.mark.parametrize("what", ["motors", "gears", "materials"])
-def test_the_listing_is_the_file(what):
-    listed = run("catalogue", what, "--json").document[what]
-    path = ROOT / "ocs_design" / "catalogue" / f"{what}.csv"
+@pytest.mark.parametrize("catalogue", ["motors", "gears", "materials"])
+def test_the_listing_has_the_rows_of_the_file(catalogue):
+    listed = run("catalogue", catalogue, "--json").document[catalogue]
+    path = ROOT / "ocs_design" / "catalogue" / f"{catalogue}.csv"
     rows = {row["name"]: row for row in csv.DictReader(path.read_text().splitlines())}
     assert [entry["name"] for entry in listed] == sorted(rows)
     assert all(entry["source"] == rows[entry["name"]]["source"] for entry in listed)
 
 
-def test_json_is_in_si_and_says_what_is_missing():
+def test_json_is_in_si_units_with_missing_figures():
     listed = {row["name"]: row for row in run("catalogue", "motors", "--json").document["motors"]}
     assert listed["R80 KV110"]["missing"] == []
     assert listed["R80 KV110"]["no_load_speed"] == pytest.approx(549.78, abs=0.01)
     assert listed["4221 G 024 BXTH"]["missing"] == ["mass"]
 
 
-def test_people_read_figures_marks_and_what_is_missing():
-    """Each motor in one line, as for grep."""
+def test_the_table_has_figures_marks_and_missing_data():
+    """Each motor is one line, so that grep works."""
     result = run("catalogue", "motors")
-    said = result.output
+    text = result.output
     assert re.search(r"^  MN5212 KV340 .* -$", result.stdout, re.MULTILINE)
-    assert "U8 Lite KV100 238 50.4 5,040 2.8+ 95.5 - " in said
-    assert "R80 KV110 354 48 5,250 4 86.8 stator" in said
-    assert "1.22* 37.7 stator +2" in said
-    assert "ILM85x26 670 48 1,560 9.4 292 bearings +2" in said
-    assert "4221 G 024 BXTH" in said.split("Cannot be built with")[1]
-    assert "SwRI/SymBench" in said
-    assert re.search(r"1 to 2 14 \d+ 2 to 5 16 \d+ 5 to 20 6 \d+", said)
+    assert "U8 Lite KV100 238 50.4 5,040 2.8+ 95.5 - " in text
+    assert "R80 KV110 354 48 5,250 4 86.8 stator" in text
+    assert "1.22* 37.7 stator +2" in text
+    assert "ILM85x26 670 48 1,560 9.4 292 bearings +2" in text
+    assert "4221 G 024 BXTH" in text.split("Cannot be built with")[1]
+    assert "SwRI/SymBench" in text
+    assert re.search(r"1 to 2 14 \d+ 2 to 5 16 \d+ 5 to 20 6 \d+", text)
 
 
-def test_gears_in_words():
-    said = run("catalogue", "gears").output
-    assert "GP 32 C 166936 23.04:1 23.040 160 424.7 3.75 8,000 -" in said
-    assert "GP 42 C 203115: no inertia_kg_m2" in said
+def test_the_table_of_gears():
+    text = run("catalogue", "gears").output
+    assert "GP 32 C 166936 23.04:1 23.040 160 424.7 3.75 8,000 -" in text
+    assert "GP 42 C 203115: no inertia_kg_m2" in text
 
 
 @pytest.mark.parametrize("width", [80, pytest.param(120, marks=pytest.mark.slow)])
-@pytest.mark.parametrize("what", ["motors", "gears"])
-def test_no_row_of_the_table_wraps(what, width, monkeypatch):
+@pytest.mark.parametrize("catalogue", ["motors", "gears"])
+def test_no_row_of_the_table_wraps(catalogue, width, monkeypatch):
     monkeypatch.setenv("COLUMNS", str(width))
-    result = run("catalogue", what)
+    result = run("catalogue", catalogue)
     assert (result.code, result.stderr) == (0, "")
     lines = result.stdout.splitlines()
     start = next(index for index, line in enumerate(lines) if "──" in line) + 1
     end = next(
         index
         for index in range(start, len(lines))
-        if lines[index].startswith("  + " if what == "motors" else "  ratio:")
+        if lines[index].startswith("  + " if catalogue == "motors" else "  ratio:")
     )
     names = {line[2:].split("  ")[0].strip() for line in lines[start:end]}
     assert "" not in names
@@ -95,18 +95,18 @@ def test_a_users_file_joins_the_table(tmp_path):
         (("materials", "--gears", "g.csv"), "--gears has no effect on materials"),
     ],
 )
-def test_what_makes_no_sense_is_wrong_usage(arguments, words):
+def test_options_of_other_catalogues_are_wrong_usage(arguments, words):
     assert words in failure(2, "catalogue", *arguments)
 
 
 @pytest.mark.slow
-def test_doubts_about_a_users_file_are_told_before_its_table(tmp_path):
-    """On standard error, or in the document."""
+def test_implausible_figures_of_a_users_file_raise_a_warning(tmp_path):
+    """They are on standard error, or in the document."""
     path = tmp_path / "mine.toml"
     path.write_text(MINE.replace("0.0205", "20.5"))
-    told = run("catalogue", "motors", "--motors", path)
-    assert "warning:" in told.stderr
-    assert "did you mean 0.0205 kg?" in told.stderr
+    result = run("catalogue", "motors", "--motors", path)
+    assert "warning:" in result.stderr
+    assert "did you mean 0.0205 kg?" in result.stderr
     (warning,) = run("catalogue", "motors", "--motors", path, "--json").document["warnings"]
     assert "mass_kg is 20.5 kg" in warning
     assert run("catalogue", "motors", "--json").document["warnings"] == []

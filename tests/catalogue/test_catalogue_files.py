@@ -1,4 +1,4 @@
-"""Catalogue files of users: both formats, and every way in which one can be wrong."""
+"""Catalogue files of users: both formats, and every kind of fault."""
 
 import re
 from importlib.resources import as_file, files
@@ -39,44 +39,46 @@ MOUNTED = {
     "stator_thread": "M2.5",
     "stator_face": "output",
 }
-"""One whose shaft and threads alone are stated."""
+"""A motor of which only shaft and threads are given."""
 
 MOUNTING = Mounting(0.005, BoltCircle(0.017, 3, "M3"), BoltCircle(0.025, 4, "M2.5"), Face.OUTPUT)
 
 
 def toml(sheet=SHEET, **changes):
-    """A row as a user writes it: what is None is not stated."""
-    stated = {key: value for key, value in (sheet | changes).items() if value is not None}
-    return "[[motor]]\n" + "\n".join(f"{key} = {value!r}" for key, value in stated.items())
+    """A TOML file of one motor; None leaves a column out."""
+    given = {key: value for key, value in (sheet | changes).items() if value is not None}
+    return "[[motor]]\n" + "\n".join(f"{key} = {value!r}" for key, value in given.items())
 
 
 def csv(sheet=SHEET, **changes):
-    stated = {key: value for key, value in (sheet | changes).items() if value is not None}
-    texts = (f'"{value}"' if "," in str(value) else str(value) for value in stated.values())
-    return f"{','.join(stated)}\n{','.join(texts)}\n"
+    given = {key: value for key, value in (sheet | changes).items() if value is not None}
+    texts = (f'"{value}"' if "," in str(value) else str(value) for value in given.values())
+    return f"{','.join(given)}\n{','.join(texts)}\n"
 
 
 @pytest.mark.parametrize(("write", "suffix"), [(toml, ".toml"), (csv, ".csv")])
-def test_both_formats_say_the_same(load, write, suffix):
-    found = load(write(), suffix)["M"]
-    assert (found.mass, found.torque_constant, found.resistance) == (0.1, 0.02, 0.5)
-    assert (found.rotor_inertia, found.speed_max) == (None, None)
+def test_both_formats_read_the_same(load, write, suffix):
+    loaded = load(write(), suffix)["M"]
+    assert (loaded.mass, loaded.torque_constant, loaded.resistance) == (0.1, 0.02, 0.5)
+    assert (loaded.rotor_inertia, loaded.speed_max) == (None, None)
     assert load(write(MOUNTED), suffix)["M"].mounting == MOUNTING
 
 
-def test_each_part_of_a_mounting_may_stand_alone(load):
-    nothing = dict.fromkeys(key for key in MOUNTED if key.startswith(("shaft", "rotor", "stator")))
-    assert load(toml(MOUNTED | nothing))["M"].mounting is None
-    shaft = nothing | {"shaft_diameter_m": 0.005}
-    assert load(toml(MOUNTED | shaft))["M"].mounting == Mounting(0.005)
+def test_each_part_of_a_mounting_is_optional(load):
+    without_mounting = dict.fromkeys(
+        key for key in MOUNTED if key.startswith(("shaft", "rotor", "stator"))
+    )
+    assert load(toml(MOUNTED | without_mounting))["M"].mounting is None
+    shaft_alone = without_mounting | {"shaft_diameter_m": 0.005}
+    assert load(toml(MOUNTED | shaft_alone))["M"].mounting == Mounting(0.005)
 
 
-def test_marks_of_order_and_line_ends_do_not_matter(load):
+def test_byte_order_marks_and_line_ends_do_not_matter(load):
     text = csv(source="bench, hall 3").replace("\n", "\r\n").encode("utf-8-sig")
     assert load(text, ".csv")["M"].source == "bench, hall 3"
 
 
-def test_empty_lines_and_empty_cells_state_nothing(load):
+def test_empty_lines_and_cells_are_ignored(load):
     text = "name,maker,source,mass_kg\n\n M , me ,bench,\n,,,\n"
     assert load(text, ".csv")["M"].mass is None
 
@@ -86,7 +88,7 @@ def test_a_file_without_motors_is_an_empty_catalogue(load):
     assert load("name,maker,source\n", ".csv") == {}
 
 
-def test_a_users_motor_replaces_the_catalogues(tmp_path):
+def test_a_users_motor_replaces_that_of_the_catalogue(tmp_path):
     path = tmp_path / "mine.toml"
     path.write_text(toml() + "\n" + toml(name="R80 KV110", mass_kg=0.3))
     known = known_motors(path)
@@ -104,9 +106,9 @@ FAULTS = {
     "zero": (toml(mass_kg=0), "mass_kg: 0 is not positive"),
     "infinite": (toml().replace("0.1", "inf"), "mass_kg: inf is not positive and finite"),
     "not a number": (csv(mass_kg="nan"), "mass_kg: 'nan' is not positive and finite"),
-    "a truth": (toml().replace("0.1", "true"), "mass_kg: True is not a number"),
+    "a boolean": (toml().replace("0.1", "true"), "mass_kg: True is not a number"),
     "a list": (toml(mass_kg=[1]), r"mass_kg: \[1\] is not a number"),
-    "a giant": (toml().replace("0.1", "1" + 400 * "0"), "mass_kg: 1.* is not a number"),
+    "a huge number": (toml().replace("0.1", "1" + 400 * "0"), "mass_kg: 1.* is not a number"),
     "no text": (toml(maker=7), "maker: 7 is not text"),
     "no source": (toml(source=None), "source: is missing"),
     "an empty source": (toml(source=""), "source: is missing"),
@@ -114,8 +116,8 @@ FAULTS = {
     "no convention": (toml(kt_convention=None), "needs its kt_convention: one of six-step, foc"),
     "a wrong convention": (toml(kt_convention="dq"), "'dq' is not one of six-step, foc"),
     "no terminals": (toml(resistance_between=None), "needs its resistance_between"),
-    "k_t is the other one": (toml(kv_rpm_per_v=413.5), "not six-step; it fits foc; explain"),
-    "k_t is none": (toml(kv_rpm_per_v=300), "k_t Kv is 6.00 .* it fits no convention"),
+    "k_t of another convention": (toml(kv_rpm_per_v=413.5), "not six-step; it fits foc; explain"),
+    "k_t of no convention": (toml(kv_rpm_per_v=300), "k_t Kv is 6.00 .* it fits no convention"),
     "no-load speed": (toml(no_load_speed_rpm=9000), "9,000 rpm, but V, R and k_t make it 11,459"),
     "stall torque": (toml(stall_torque_nm=2.0), "stall torque is 2 N m, but V k_t / R is 0.96"),
     "stall current": (toml(stall_current_a=20), "stall current is 20 A, but V / R is 48 A"),
@@ -141,7 +143,7 @@ FAULTS = {
 
 
 @pytest.mark.parametrize(("text", "message"), FAULTS.values(), ids=FAULTS)
-def test_faults_are_told_with_their_place(load, text, message):
+def test_faults_are_reported_with_their_place(load, text, message):
     suffix = ".csv" if "," in text.splitlines()[0] else ".toml"
     with pytest.raises(SpecificationError) as caught:
         load(text, suffix)
@@ -191,14 +193,14 @@ UNMOUNTABLE = {
 
 
 @pytest.mark.parametrize(("changes", "message"), UNMOUNTABLE.values(), ids=UNMOUNTABLE)
-def test_a_mounting_that_cannot_be_is_refused_whatever_the_remark(load, changes, message):
+def test_an_impossible_mounting_is_refused_also_with_a_remark(load, changes, message):
     with pytest.raises(SpecificationError, match=message) as caught:
         load(toml(MOUNTED | changes, remark="so it is"))
     assert "(M)" in str(caught.value)
 
 
-def test_the_edges_of_mountings_that_can_be_pass(load):
-    """Of M3 on 17 mm, 3.4 mm holes: 1 mm is left to a shaft of 11.6 mm, and between 11 screws."""
+def test_limits_of_possible_mountings_are_accepted(load):
+    """Holes of 3.4 mm on 17 mm leave 1 mm to a shaft of 11.6 mm, and between 11 screws."""
     changes = {"shaft_diameter_m": 0.0116 - 1e-9, "rotor_bolts": 11}
     edge = load(toml(MOUNTED | changes))["M"].mounting
     assert edge.rotor.inside - edge.shaft_diameter / 2.0 == pytest.approx(1e-3, abs=1e-9)
@@ -221,12 +223,12 @@ UNREADABLE = {
 
 
 @pytest.mark.parametrize(("content", "suffix", "message"), UNREADABLE.values(), ids=UNREADABLE)
-def test_a_file_that_cannot_be_read_is_told(load, content, suffix, message):
+def test_an_unreadable_file_is_an_error(load, content, suffix, message):
     with pytest.raises(SpecificationError, match=message):
         load(content, suffix)
 
 
-def test_a_file_that_is_not_there_is_told(tmp_path):
+def test_a_missing_file_is_an_error(tmp_path):
     with pytest.raises(SpecificationError, match="No such file"):
         load_motors(tmp_path / "none.csv")
     (tmp_path / "folder.csv").mkdir()
@@ -234,7 +236,7 @@ def test_a_file_that_is_not_there_is_told(tmp_path):
         load_motors(tmp_path / "folder.csv")
 
 
-def test_all_faults_at_once(load):
+def test_all_faults_are_reported_at_once(load):
     text = f"{HEADER}\nA,me,,x,0.02,,,1\nB,me,bench,-1,,,,\n"
     with pytest.raises(SpecificationError) as caught:
         load(text, ".csv")
@@ -243,7 +245,7 @@ def test_all_faults_at_once(load):
         "line 2 (A), mass_kg",
         "line 2 (A), source",
         "line 3 (B), mass_kg",
-        # What only a builder needs is told in the same round.
+        # Figures needed only for building are reported at the same time.
         "line 2 (A)",
         "line 3 (B)",
     ]
@@ -252,16 +254,16 @@ def test_all_faults_at_once(load):
 
 @pytest.mark.parametrize("column", ["mass_kg", "resistance_ohm", "kt_nm_per_a"])
 @pytest.mark.parametrize("value", [-0.1, 0, "much"])
-def test_a_figure_that_is_wrong_is_not_told_as_missing_too(load, column, value):
-    right = load(toml())["M"]
+def test_a_wrong_figure_is_not_reported_as_missing_too(load, column, value):
+    correct = load(toml())["M"]
     with pytest.raises(SpecificationError) as caught:
         load(toml(**{column: value}))
     wrong, gaps = caught.value.problems
     assert wrong.startswith(f"motor[1] (M), {column}: ")
-    assert gaps == f"motor[1] (M): to build with it, it lacks {', '.join(build_gaps(right))}"
+    assert gaps == f"motor[1] (M): to build with it, it lacks {', '.join(build_gaps(correct))}"
 
 
-DOUBTS = {
+IMPLAUSIBLE = {
     "hardly any mass": (
         {"mass_kg": 0.025, "diameter_m": 0.0556, "length_m": 0.025},
         r"mass_kg is 0.025 kg .* 0.4119 g/cm3, where motors have 1.3 to 7: check its unit",
@@ -300,20 +302,20 @@ DOUBTS = {
 }
 
 
-@pytest.mark.parametrize(("changes", "message"), DOUBTS.values(), ids=DOUBTS)
-def test_figures_that_are_hardly_meant_are_doubted(load, changes, message):
-    (doubt,) = load(toml(**changes), read=implausible_values)
-    assert re.search(f"mine.toml, M: {message}", doubt), doubt
-    # They are read all the same.
+@pytest.mark.parametrize(("changes", "message"), IMPLAUSIBLE.values(), ids=IMPLAUSIBLE)
+def test_implausible_figures_raise_a_warning(load, changes, message):
+    (warning,) = load(toml(**changes), read=implausible_values)
+    assert re.search(f"mine.toml, M: {message}", warning), warning
+    # The file is read nevertheless.
     assert "M" in load(toml(**changes))
 
 
-def test_nothing_of_the_catalogue_is_doubted():
+def test_the_catalogue_raises_no_warning():
     with as_file(files("ocs_design.catalogue") / "motors.csv") as path:
         assert implausible_values(path) == ()
 
 
-def test_a_remark_lets_a_contradiction_stand(load):
+def test_a_remark_permits_a_contradiction(load):
     assert load(toml(stall_torque_nm=2.0, remark="measured on the bench"))["M"].remark
 
 

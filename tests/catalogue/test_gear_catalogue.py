@@ -32,10 +32,10 @@ def test_stages_reduce_and_speed_up():
     assert 1.0 not in ratios
 
 
-def test_stages_have_names_of_their_own_and_physical_figures():
-    found = stages(gears().values())
-    assert len({stage.name for stage in found} | {DIRECT.name}) == len(found) + 1
-    for stage in found:
+def test_stages_have_unique_names_and_physical_figures():
+    all_stages = stages(gears().values())
+    assert len({stage.name for stage in all_stages} | {DIRECT.name}) == len(all_stages) + 1
+    for stage in all_stages:
         assert 0.0 < stage.efficiency <= 1.0
         assert 0.0 < stage.mass < 2.5
         assert 0.0 < stage.inertia < 1e-2
@@ -43,7 +43,7 @@ def test_stages_have_names_of_their_own_and_physical_figures():
         assert min(stage.motor_speed_max, stage.wheel_speed_max) < math.inf
 
 
-def test_a_planetary_gear_as_its_maker_prints_it():
+def test_a_planetary_gear_has_the_figures_of_its_maker():
     """maxon GP 32 C, 166936: 23:1, 75 %, 160 g, 0.8 g cm2 at the motor, 3.75 N m, 8000 rpm."""
     (stage,) = gear("GP 32 C 166936").stages()
     assert stage.ratio == pytest.approx(576.0 / 25.0)
@@ -54,13 +54,13 @@ def test_a_planetary_gear_as_its_maker_prints_it():
     assert not stage.reverses
 
 
-def test_a_gear_that_lacks_figures_offers_no_stage():
+def test_a_gear_without_all_figures_has_no_stage():
     sheet = gear("GP 42 C 203115")
     assert sheet.stages() == ()
     assert sheet.missing == ("inertia_kg_m2", "inertia_at", "motor_speed_max_rpm")
 
 
-def test_inertia_at_the_wheel_is_taken_as_it_is():
+def test_inertia_at_the_wheel_is_not_converted():
     sheet = GearSheet(
         name="pair",
         maker="me",
@@ -96,8 +96,8 @@ STAGE = BeltStage(
 teeth = st.integers(10, 80)
 
 
-def hull_length(stage):
-    """Of a thread about both pitch circles, from points on them."""
+def belt_length(stage):
+    """Length of a thread around both pitch circles, from points on them."""
     angles = np.linspace(0.0, 2.0 * np.pi, 20_000)
     circle = np.column_stack([np.cos(angles), np.sin(angles)])
     distance = stage.motor_radius + stage.wheel_radius + PULLEY_GAP
@@ -111,7 +111,7 @@ def test_the_belt_is_the_shortest_with_whole_teeth(pair):
     stage = replace(STAGE, motor_teeth=pair[0], wheel_teeth=pair[1])
     length = stage.belt_mass / stage.belt_density
     assert length / stage.pitch == pytest.approx(round(length / stage.pitch), abs=1e-9)
-    least = hull_length(stage)
+    least = belt_length(stage)
     assert least - 1e-6 <= length < least + stage.pitch
 
 
@@ -130,26 +130,26 @@ def test_inertia_is_that_of_the_kinetic_energy(motor_teeth, wheel_teeth):
 
 
 @given(teeth, teeth)
-def test_turned_about_a_stage_is_as_heavy_and_carries_the_same_power(first, second):
+def test_a_reversed_stage_has_the_same_mass_and_power(first, second):
     stage = replace(STAGE, motor_teeth=first, wheel_teeth=second)
-    turned = replace(STAGE, motor_teeth=second, wheel_teeth=first)
-    assert stage.mass == pytest.approx(turned.mass, rel=1e-12)
-    assert stage.torque_max == pytest.approx(turned.torque_max * stage.ratio, rel=1e-12)
-    assert stage.inertia == pytest.approx(turned.inertia * stage.ratio**2, rel=1e-12)
+    reversed_stage = replace(STAGE, motor_teeth=second, wheel_teeth=first)
+    assert stage.mass == pytest.approx(reversed_stage.mass, rel=1e-12)
+    assert stage.torque_max == pytest.approx(reversed_stage.torque_max * stage.ratio, rel=1e-12)
+    assert stage.inertia == pytest.approx(reversed_stage.inertia * stage.ratio**2, rel=1e-12)
 
 
-def test_torque_agrees_with_the_makers_table():
+def test_torque_agrees_with_the_table_of_the_maker():
     """SDP/SI, table 33: 20 grooves, 2 mm pitch, 6 mm wide, 10 rpm: 0.18 N m."""
     stages = {stage.name: stage for stage in gear("GT3 2 mm x 6 mm").stages()}
     assert 0.9 * 0.18 < stages["GT3 2 mm x 6 mm 40:20"].torque_max < 0.18
 
 
-def test_few_teeth_in_mesh_cost_torque():
-    """Ten teeth, of which four are wrapped: two fifths less (SDP/SI, section 13.3)."""
+def test_few_teeth_in_mesh_reduce_the_torque():
+    """Ten teeth, of which three are in mesh: 0.4 of the torque (SDP/SI, section 13.3)."""
     stage = replace(STAGE, motor_teeth=10, wheel_teeth=60)
     assert stage.teeth_in_mesh == 3
     assert stage.torque_max == pytest.approx(0.4 * 26.2 * stage.wheel_radius, rel=1e-12)
 
 
-def test_the_belts_speed_limits_the_wheel():
+def test_the_belt_speed_limits_the_wheel():
     assert STAGE.wheel_speed_max(33.0) * STAGE.wheel_radius == pytest.approx(33.0)

@@ -1,4 +1,4 @@
-"""Rows of all catalogues and how they are found, and the materials' figures."""
+"""Rows of all catalogues, lookup by name, and figures of materials."""
 
 import pytest
 
@@ -9,16 +9,16 @@ from ocs_design.common.errors import OcsError, SpecificationError
 
 
 @pytest.mark.parametrize("catalogue", [motors, gears, materials])
-def test_catalogues_are_sorted_have_sources_and_stay_as_they_are(catalogue):
+def test_catalogues_are_sorted_immutable_and_have_sources(catalogue):
     rows = catalogue()
     assert list(rows) == sorted(rows)
-    assert all(found.source and name == found.name for name, found in rows.items())
+    assert all(row.source and name == row.name for name, row in rows.items())
     with pytest.raises(TypeError):
         rows["mine"] = next(iter(rows.values()))
 
 
 @pytest.mark.parametrize(
-    ("find", "asked", "offered"),
+    ("find", "query", "suggested"),
     [
         (motor, "EC 45 flat 70 W 41181", "EC 45 flat 70 W 411812"),
         (motor, "r80 kv11", "R80 KV110"),
@@ -28,26 +28,26 @@ def test_catalogues_are_sorted_have_sources_and_stay_as_they_are(catalogue):
         (material, "stainles-304", "stainless-304"),
     ],
 )
-def test_an_unknown_name_gets_the_closest(find, asked, offered):
-    with pytest.raises(SpecificationError, match=asked) as caught:
-        find(asked)
-    assert offered in caught.value.hint
+def test_an_unknown_name_suggests_the_closest(find, query, suggested):
+    with pytest.raises(SpecificationError, match=query) as caught:
+        find(query)
+    assert suggested in caught.value.hint
 
 
 @pytest.mark.parametrize(
-    ("find", "asked", "name"),
+    ("find", "query", "name"),
     [
         (motor, "r80-kv110", "R80 KV110"),
         (motor, "t-motor antigravity MN5006 KV450", "Antigravity MN5006 KV450"),
         (gear, "gt3-2mm x 6MM", "GT3 2 mm x 6 mm"),
     ],
 )
-def test_capitals_spaces_dashes_and_the_makers_name_do_not_matter(find, asked, name):
-    assert find(asked).name == name
+def test_case_spaces_dashes_and_maker_do_not_matter(find, query, name):
+    assert find(query).name == name
 
 
 def test_densities_are_those_of_metals():
-    assert all(2500 < found.density < 20_000 for found in materials().values())
+    assert all(2500 < metal.density < 20_000 for metal in materials().values())
 
 
 def test_the_default_has_every_strength():
@@ -61,7 +61,7 @@ def test_the_papers_material_is_known_by_its_density_only():
     assert paper.yield_strength is paper.ultimate_strength is paper.poisson_ratio is None
 
 
-def test_a_name_like_no_other_gets_the_whole_list():
+def test_a_name_without_similar_ones_lists_all():
     with pytest.raises(SpecificationError) as caught:
         material("cheese")
     assert all(name in caught.value.hint for name in materials())

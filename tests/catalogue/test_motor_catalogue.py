@@ -1,4 +1,4 @@
-"""The motors' figures, estimates and threads, against data sheets and each other."""
+"""Figures, estimates and threads of motors against data sheets and each other."""
 
 import json
 import math
@@ -41,19 +41,19 @@ PRINTED = {
 
 
 @pytest.mark.parametrize("name", PRINTED)
-def test_gradient_and_time_constant_are_those_that_the_maker_prints(name):
-    """Neither is in the row: both follow from R, k_t and the rotor's inertia."""
-    found = motor(name)
-    gradient = found.resistance / found.torque_constant**2
+def test_gradient_and_time_constant_are_those_of_the_maker(name):
+    """Neither is in the catalogue: both follow from R, k_t and the rotor's inertia."""
+    row = motor(name)
+    gradient = row.resistance / row.torque_constant**2
     printed_gradient, printed_time = PRINTED[name]
     assert gradient / RPM == pytest.approx(printed_gradient, rel=0.015)
-    assert gradient * found.rotor_inertia == pytest.approx(printed_time, rel=0.015)
+    assert gradient * row.rotor_inertia == pytest.approx(printed_time, rel=0.015)
 
 
-def test_there_is_something_to_choose_from_for_small_and_for_large_robots():
-    complete = [found for found in motors().values() if not missing_figures(found, DIRECT)]
-    assert sum(found.mass < 0.1 for found in complete) >= 20
-    assert sum(found.peak_torque > 3.0 for found in complete) >= 15
+def test_there_are_motors_for_small_and_large_robots():
+    complete = [row for row in motors().values() if not missing_figures(row, DIRECT)]
+    assert sum(row.mass < 0.1 for row in complete) >= 20
+    assert sum(row.peak_torque > 3.0 for row in complete) >= 15
     assert len(complete) >= 140
 
 
@@ -61,30 +61,30 @@ ADDRESS = re.compile(r"\b(github\.com/[\w.-]+/[\w.-]+ \S+|\w[\w.-]*\.\w{2,3}/\S+
 
 
 def test_every_source_can_be_looked_up():
-    """A repository with a path in it, or another address with one."""
-    for found in motors().values():
-        assert ADDRESS.search(found.source), f"{found.name}: {found.source}"
+    """The source is an address with a path, or a repository with a file."""
+    for row in motors().values():
+        assert ADDRESS.search(row.source), f"{row.name}: {row.source}"
 
 
-def test_what_a_source_does_not_give_stays_empty():
+def test_figures_missing_in_the_source_stay_empty():
     incomplete = motor("EC 45 flat 30 W 200142")
     assert incomplete.mass is incomplete.resistance is None
     assert {"mass", "resistance"} <= set(missing_figures(incomplete, DIRECT))
 
 
 def test_a_field_oriented_constant_is_converted():
-    """mj5208: Kv 330, 0.025 N m per ampere of amplitude, 100 A of amplitude at most."""
-    found = motor("mj5208 KV330")
-    assert found.torque_constant == pytest.approx(1.0 / (330.0 * RPM), rel=0.01)
-    assert found.torque_constant * found.peak_current == pytest.approx(0.025 * 100.0, rel=1e-12)
+    """mj5208: Kv 330, 0.025 N m/A and a maximum of 100 A, both by amplitude."""
+    row = motor("mj5208 KV330")
+    assert row.torque_constant == pytest.approx(1.0 / (330.0 * RPM), rel=0.01)
+    assert row.torque_constant * row.peak_current == pytest.approx(0.025 * 100.0, rel=1e-12)
 
 
 def test_a_resistance_between_line_and_star_counts_twice():
-    """The maker prints 0.452 ohm between two lines for what was measured as 0.233 per phase."""
+    """The maker has 0.452 ohm between two lines; 0.233 ohm per phase was measured."""
     assert motor("Antigravity 4004 KV300").resistance == pytest.approx(0.452, rel=0.03)
 
 
-def test_the_short_term_torque_says_what_it_rests_on():
+def test_the_peak_torque_has_its_basis():
     assert motor("R80 KV110").peak_basis == "peak torque"
     by_current = motor("Antigravity MN4006 KV380")
     assert by_current.peak_basis == "peak current"
@@ -97,26 +97,26 @@ def test_the_short_term_torque_says_what_it_rests_on():
 def test_motor_constant_per_mass_is_that_of_outrunners():
     """k_t / sqrt(R) per mass lies within a factor of two of 0.6 for every T-Motor and KDE motor.
 
-    A digit lost in a resistance or a mass would show: it did for three rows of the source.
+    This shows errors in resistances or masses, as in three rows of the source.
     """
-    for found in motors().values():
-        if found.maker in {"T-Motor", "KDE Direct"}:
-            constant = found.torque_constant / math.sqrt(found.resistance) / found.mass
-            assert 0.3 < constant < 1.2, found.name
+    for row in motors().values():
+        if row.maker in {"T-Motor", "KDE Direct"}:
+            constant = row.torque_constant / math.sqrt(row.resistance) / row.mass
+            assert 0.3 < constant < 1.2, row.name
 
 
-def test_a_column_is_a_field_of_a_row_and_is_read_as_its_type_asks():
+def test_columns_are_fields_of_rows_and_are_read_by_their_type():
     columns = columns_of(MotorSheet)
     assert [column.field for column in columns.values()] == [
-        each.name for each in fields(MotorSheet)
+        field.name for field in fields(MotorSheet)
     ]
-    asked = {
+    readers = {
         "maker": text,
         "mass_kg": positive,
         "rotor_bolts": positive_integer,
         "rotor_thread": text,
     }
-    assert {name: columns[name].read for name in asked} == asked
+    assert {name: columns[name].read for name in readers} == readers
     with pytest.raises(ValueError, match="not one of six-step, foc, foc-rms"):
         columns["kt_convention"].read("sine")
 
@@ -124,22 +124,22 @@ def test_a_column_is_a_field_of_a_row_and_is_read_as_its_type_asks():
 REDUCER = Gear("r", 3.0, 0.9, 0.1, 1e-6, 1e4, math.inf, 10.0, reverses=False, source="made up")
 
 
-def known_inertia(kind):
-    """Stated rotor inertia over the estimate, for every motor of that kind that has both."""
+def published_over_estimated_inertia(kind):
+    """Ratios of published rotor inertia and estimate for motors of a kind that have both."""
     shares = []
-    for found in motors().values():
-        estimate, _ = estimated_rotor_inertia(found.kind, found.mass, found.diameter)
-        stated = None if found.rotor_inertia_source else found.rotor_inertia
-        if found.kind is kind and stated is not None and estimate is not None:
-            shares.append(stated / estimate)
+    for row in motors().values():
+        estimate, _ = estimated_rotor_inertia(row.kind, row.mass, row.diameter)
+        published = None if row.rotor_inertia_source else row.rotor_inertia
+        if row.kind is kind and published is not None and estimate is not None:
+            shares.append(published / estimate)
     return shares
 
 
 @pytest.mark.parametrize(("kind", "least_count"), [("outrunner", 3), ("frameless", 6)])
-def test_known_rotor_inertias_lie_within_the_stated_spread(kind, least_count):
-    """The estimate is never above: a rotor that is counted too heavy makes a wheel too light."""
+def test_published_rotor_inertias_are_within_the_spread_of_the_estimate(kind, least_count):
+    """The estimate is never too high, since that would make the wheel too light."""
     kind = MotorKind(kind)
-    shares = known_inertia(kind)
+    shares = published_over_estimated_inertia(kind)
     least, most = INERTIA_SHARE[kind]
     assert len(shares) >= least_count
     assert min(shares) >= 1.0
@@ -154,28 +154,28 @@ def test_an_inrunner_and_a_motor_without_mass_have_no_estimate():
 
 
 def test_the_estimate_is_a_share_of_mass_and_diameter_squared():
-    """Worked by hand: 0.05 x 0.108 kg x (35.2 mm)^2."""
+    """0.05 x 0.108 kg x (35.2 mm)^2."""
     inertia, source = estimated_rotor_inertia(MotorKind.OUTRUNNER, 0.108, 0.0352)
     assert inertia == pytest.approx(6.691e-6, rel=1e-3)
     assert "0.05 m D^2" in source
 
 
-def test_an_estimate_is_named_and_a_stated_figure_is_not():
-    estimated, stated = motor("MN5212 KV340"), motor("EC 45 flat 70 W 411812")
+def test_only_an_estimated_rotor_inertia_has_a_source():
+    estimated, published = motor("MN5212 KV340"), motor("EC 45 flat 70 W 411812")
     assert estimated.rotor_inertia and "estimate" in estimated.rotor_inertia_source
-    assert (stated.rotor_inertia, stated.rotor_inertia_source) == (1.81e-5, "")
+    assert (published.rotor_inertia, published.rotor_inertia_source) == (1.81e-5, "")
     drive = Drive.of(estimated, DIRECT, 24.0)
     assert drive.rotor_inertia == estimated.rotor_inertia
     assert drive.rotor_inertia_source == estimated.rotor_inertia_source
 
 
-def test_behind_a_reducing_gear_the_least_inertia_is_not_the_safe_side():
+def test_behind_a_reducing_gear_an_estimate_is_not_enough():
     assert missing_figures(motor("MN5212 KV340"), REDUCER) == ("rotor inertia",)
     assert missing_figures(motor("MN5212 KV340"), DIRECT) == ()
 
 
-def test_continuous_torque_by_hand():
-    """Worked by hand: a cylinder 50 mm wide and 40 mm long, 0.05 ohm, 0.03 N m/A.
+def test_estimated_continuous_torque():
+    """A cylinder 50 mm wide and 40 mm long, 0.05 ohm, 0.03 N m/A.
 
     A = pi 0.05 (0.04 + 0.025) = 0.010210 m^2; 10 x 75 A = 7.658 W = 0.05 x 1.29475 i^2: 10.876 A.
     """
@@ -185,55 +185,55 @@ def test_continuous_torque_by_hand():
     assert estimated_continuous_torque(0.03, 0.05, 0.05, None) == (None, "")
 
 
-def test_the_estimate_of_continuous_torque_is_below_what_makers_state():
+def test_estimated_continuous_torques_are_below_published_ones():
     shares = []
-    for found in motors().values():
+    for row in motors().values():
         estimate, _ = estimated_continuous_torque(
-            found.torque_constant, found.resistance, found.diameter, found.length
+            row.torque_constant, row.resistance, row.diameter, row.length
         )
-        stated = None if found.continuous_torque_source else found.continuous_torque
-        if estimate is not None and stated is not None:
-            shares.append(estimate / stated)
+        published = None if row.continuous_torque_source else row.continuous_torque
+        if estimate is not None and published is not None:
+            shares.append(estimate / published)
     assert len(shares) >= 7
     assert max(shares) <= 1.0
     assert median(shares) > 0.5
 
 
 def test_every_complete_motor_is_held_by_known_screws():
-    complete = [found for found in motors().values() if not build_gaps(found)]
+    complete = [row for row in motors().values() if not build_gaps(row)]
     assert len(complete) >= 60
-    for found in complete:
-        assert mount_of(found, None).holes.screws is not None, found.name
-        assert found.mounting.stator_face in set(Face)
+    for row in complete:
+        assert mount_of(row, None).holes.screws is not None, row.name
+        assert row.mounting.stator_face in set(Face)
 
 
 def test_heavy_robots_have_motors_that_can_be_built_with():
-    """Up to 230 N m with up to 19 N m/kg, screwed on by their back and by their bell."""
-    complete = [found for found in motors().values() if not build_gaps(found)]
-    strong = [found for found in complete if found.peak_torque > 14.0]
-    assert [found.peak_torque for found in strong if found.maker == "EMRAX"] == [90.0, 140.0, 230.0]
-    assert max(found.peak_torque / found.mass for found in strong) > 19.0
-    assert {(str(found.mounting.stator), str(found.mounting.rotor)) for found in strong} == {
+    """Up to 230 N m and 19 N m/kg, with threads in stator and rotor."""
+    complete = [row for row in motors().values() if not build_gaps(row)]
+    strong = [row for row in complete if row.peak_torque > 14.0]
+    assert [row.peak_torque for row in strong if row.maker == "EMRAX"] == [90.0, 140.0, 230.0]
+    assert max(row.peak_torque / row.mass for row in strong) > 19.0
+    assert {(str(row.mounting.stator), str(row.mounting.rotor)) for row in strong} == {
         ("4 x M6 on 50 mm", "4 x M5 on 30 mm"),
         ("6 x M6 on 62 mm", "6 x M6 on 64 mm"),
         ("6 x M8 on 78 mm", "6 x M8 on 75 mm"),
     }
 
 
-def test_convention_is_said_where_threads_are_not_of_the_motors_own_drawing():
-    for found in motors().values():
-        words = "convention of makers" in found.source or "of the same series" in found.source
-        assert words <= (BY_CONVENTION in found.confidence), found.name
+def test_threads_by_convention_are_marked():
+    for row in motors().values():
+        words = "convention of makers" in row.source or "of the same series" in row.source
+        assert words <= (BY_CONVENTION in row.confidence), row.name
 
 
-def test_rows_with_threads_say_where_they_are_from():
-    for found in motors().values():
-        mounting = found.mounting
+def test_threads_have_a_source():
+    for row in motors().values():
+        mounting = row.mounting
         if mounting is not None and (mounting.rotor or mounting.stator):
-            assert "threads: " in found.source, found.name
+            assert "threads: " in row.source, row.name
 
 
-def test_it_is_in_the_json_and_in_words():
+def test_mountings_in_json_and_text():
     (row,) = json.loads(motors_to_json([motor("MN5212 KV340")]))["motors"]
     assert row["mounting"]["rotor"] == {
         "diameter": 0.017,
@@ -244,6 +244,6 @@ def test_it_is_in_the_json_and_in_words():
         "depth_max": None,
         "drawn": None,
     }
-    said = motor_mounting(motor("MN5212 KV340").mounting)
-    assert said == "shaft 4 mm, rotor 3 x M3 on 17 mm, stator 4 x M3 on 25 mm (back)"
+    words = motor_mounting(motor("MN5212 KV340").mounting)
+    assert words == "shaft 4 mm, rotor 3 x M3 on 17 mm, stator 4 x M3 on 25 mm (back)"
     assert motor_mounting(None) == ""

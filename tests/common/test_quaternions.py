@@ -22,14 +22,14 @@ def test_products_matrices_and_inverses_agree_with_scipy(first, second):
 
 
 @given(st.tuples(angles, angles, angles))
-def test_the_vertical_is_scipys(turn):
-    rotation = Rotation.from_rotvec(turn)
+def test_the_vertical_agrees_with_scipy(vector):
+    rotation = Rotation.from_rotvec(vector)
     expected = rotation.inv().apply([0.0, 0.0, 1.0])
     np.testing.assert_allclose(quaternions.vertical(wxyz(rotation)), expected, atol=1e-12)
 
 
 @given(st.floats(-1.5, 1.5), st.floats(-1.0, 1.0), angles)
-def test_tilt_is_roll_and_pitch_whatever_the_heading(pitch, roll, yaw):
+def test_tilt_is_roll_and_pitch_at_any_heading(pitch, roll, yaw):
     only_pitch = wxyz(Rotation.from_euler("ZY", [yaw, pitch]))
     np.testing.assert_allclose(quaternions.tilt(only_pitch), (0.0, pitch), atol=1e-12)
     only_roll = wxyz(Rotation.from_euler("ZX", [yaw, roll]))
@@ -39,8 +39,8 @@ def test_tilt_is_roll_and_pitch_whatever_the_heading(pitch, roll, yaw):
 @given(st.floats(-0.4, 0.4), st.floats(-0.4, 0.4), angles)
 def test_heading_is_the_twist_about_the_vertical(roll, pitch, yaw):
     swing = Rotation.from_rotvec([roll, pitch, 0.0])
-    turned = wxyz(swing * Rotation.from_rotvec([0.0, 0.0, yaw]))
-    difference = quaternions.heading(turned) - yaw
+    rotation = wxyz(swing * Rotation.from_rotvec([0.0, 0.0, yaw]))
+    difference = quaternions.heading(rotation) - yaw
     np.testing.assert_allclose(np.cos(difference), 1.0, atol=1e-12)
 
 

@@ -1,4 +1,4 @@
-"""Quantities against literals, against their own printing, and against nonsense."""
+"""Quantities: reading, printing, rounding and errors."""
 
 import math
 
@@ -51,15 +51,15 @@ FINITE = st.floats(-1e12, 1e12).filter(lambda x: x == 0.0 or abs(x) > 1e-200)
         ("-.5e1 s", Dimension.TIME, -5.0),
         ("\N{MINUS SIGN}5e\N{MINUS SIGN}1 s", Dimension.TIME, -0.5),
         ("1e-999999 mm", Dimension.LENGTH, 0.0),
-        *((f"{each}deg", Dimension.ANGLE, math.radians(each)) for each in (1, 40, 360, -12.5)),
+        *((f"{angle}deg", Dimension.ANGLE, math.radians(angle)) for angle in (1, 40, 360, -12.5)),
         ("7200rpm", Dimension.ANGULAR_SPEED, 2 * math.pi * 7200 / 60),
     ],
 )
-def test_reads_the_number_that_was_written(text, dimension, expected):
-    """Exactly; degrees and revolutions, which are no finite number of radians, to the last bit."""
+def test_quantities_are_read_exactly(text, dimension, expected):
+    """Degrees and revolutions, which have no finite value in radians, to the last bit."""
     inexact = text.endswith(("deg", "rpm"))
-    wanted = pytest.approx(expected, rel=3e-16) if inexact else expected
-    assert parse_quantity(text, dimension, "x") == wanted
+    value = pytest.approx(expected, rel=3e-16) if inexact else expected
+    assert parse_quantity(text, dimension, "x") == value
 
 
 @pytest.mark.parametrize(
@@ -91,17 +91,17 @@ def test_spaces_in_a_unit_are_free(number, unit):
 
 
 @pytest.mark.parametrize("dimension", Dimension)
-def test_the_si_unit_stands_first(dimension):
+def test_the_si_unit_comes_first(dimension):
     assert dimension is Dimension.RATIO or next(iter(UNITS[dimension].values())) == 1
     assert si_unit(dimension)
 
 
-def test_no_spelling_means_two_things():
+def test_spellings_of_units_are_unique():
     spellings = [spelling for _, name in ALL_UNITS for spelling in {name, name.replace(" ", "")}]
     assert len(spellings) == len(set(spellings))
 
 
-def test_counts_in_a_unit():
+def test_conversion_and_formatting():
     assert to_unit(0.03, "mm") == 30.0
     assert format_quantity(0.0300004, "mm") == "30 mm"
     assert format_quantity(754.0, "rpm", 3) == "7200 rpm"
@@ -136,7 +136,7 @@ def test_counts_in_a_unit():
         ([1], "not a number"),
     ],
 )
-def test_says_what_is_wrong_and_what_would_be_right(value, message):
+def test_errors_have_a_hint(value, message):
     with pytest.raises(QuantityError, match=message) as caught:
         parse_quantity(value, Dimension.LENGTH, "flywheel.r_max")
     assert caught.value.message.startswith("flywheel.r_max: ")
@@ -145,7 +145,7 @@ def test_says_what_is_wrong_and_what_would_be_right(value, message):
 
 @pytest.mark.parametrize("value", ["twice", None])
 def test_a_ratio_is_a_bare_number_or_per_cent(value):
-    """The example itself can be read."""
+    """The example of the hint can be read."""
     with pytest.raises(QuantityError) as caught:
         parse_quantity(value, Dimension.RATIO, "flywheel.stress_safety")
     assert caught.value.hint == "Write a bare number, or a percentage, as in '150%'."
@@ -153,7 +153,7 @@ def test_a_ratio_is_a_bare_number_or_per_cent(value):
 
 
 @given(text=st.text(max_size=80))
-def test_no_text_does_worse_than_a_quantity_error(text):
+def test_any_text_is_a_finite_number_or_a_quantity_error(text):
     try:
         number = parse_quantity(text, Dimension.TORQUE, "x")
     except QuantityError:
@@ -171,6 +171,6 @@ def test_no_text_does_worse_than_a_quantity_error(text):
         (-0.05, 1, "-0.1", "0.0"),
     ],
 )
-def test_rounded_to_one_side(value, digits, below, above):
-    """What is nearly used up is not told as free, nor nearly all as all."""
+def test_rounding_down_and_up(value, digits, below, above):
+    """Margins are rounded down and demands up."""
     assert (floored(value, digits), ceiled(value, digits)) == (below, above)

@@ -1,4 +1,4 @@
-"""Columns as one table, files, what can be installed, and other processes."""
+"""Tables of columns, plain files, hints for extras, and calls in another process."""
 
 import math
 import os
@@ -18,11 +18,11 @@ from ocs_design.common.files import read_plain_file, safe_name
 from ocs_design.common.workers import WorkerPool
 
 
-def own_process(asked):
-    """Number of the process that asked; any other one ends."""
-    if os.getpid() != asked:
+def own_process(caller):
+    """Number of the calling process; any other process exits."""
+    if os.getpid() != caller:
         sys.exit(1)
-    return asked
+    return caller
 
 
 @pytest.fixture(autouse=True)
@@ -30,17 +30,17 @@ def two_processors(monkeypatch):
     monkeypatch.setattr(workers, "processors", lambda: 2)
 
 
-def test_another_process_answers():
+def test_calls_run_in_another_process():
     with WorkerPool("os") as other:
         assert other.call(os.getpid)() != os.getpid()
 
 
-def test_more_than_a_pipe_holds_goes_both_ways():
+def test_arguments_and_results_may_exceed_the_pipe_buffer():
     with WorkerPool("ocs_design.common.files") as other:
         assert len(other.call(safe_name, "a" * 1_000_000)()) == 1_000_000
 
 
-def test_what_it_raises_is_raised_here():
+def test_errors_are_raised_in_the_caller():
     with WorkerPool("math") as other, pytest.raises(ValueError, match="math domain error"):
         other.call(math.sqrt, -1.0)()
 
@@ -55,19 +55,19 @@ def test_what_it_raises_is_raised_here():
     ],
     ids=["no module", "none of that name", "one processor", "no process can be started"],
 )
-def test_without_another_process_this_one_answers(monkeypatch, module, processors, python):
+def test_without_another_process_calls_run_in_the_caller(monkeypatch, module, processors, python):
     monkeypatch.setattr(workers, "processors", lambda: processors)
     monkeypatch.setattr(workers.sys, "executable", python)
     with WorkerPool(module) as other:
         assert other.call(os.getpid)() == os.getpid()
 
 
-def test_a_process_that_fails_is_made_up_for():
+def test_a_call_is_repeated_here_if_its_process_ends():
     with WorkerPool("os") as other:
         assert other.call(own_process, os.getpid())() == os.getpid()
 
 
-def test_nothing_runs_on_when_nobody_waits_for_it():
+def test_processes_end_with_the_context():
     with WorkerPool("time") as other:
         other.call(time.sleep, 600.0)
         (process,) = other._processes
@@ -82,7 +82,7 @@ def test_one_process_answers_calls_in_turn():
         assert {answer() for answer in answers} <= {first.pid, os.getpid()}
 
 
-def test_what_no_process_has_begun_is_worked_out_here():
+def test_a_waiting_call_runs_in_the_caller():
     with WorkerPool("time") as other:
         other.call(time.sleep, 600.0)
         assert other.call(os.getpid)() == os.getpid()
@@ -92,8 +92,8 @@ def test_what_no_process_has_begun_is_worked_out_here():
 def test_one_processor_is_left_for_this_process(monkeypatch, usable, most, started):
     monkeypatch.setattr(workers, "processors", lambda: usable)
     with WorkerPool("math", most) as other:
-        answers = [other.call(math.sqrt, float(each)) for each in range(6)]
-        assert [answer() for answer in answers] == [math.sqrt(each) for each in range(6)]
+        answers = [other.call(math.sqrt, float(value)) for value in range(6)]
+        assert [answer() for answer in answers] == [math.sqrt(value) for value in range(6)]
         assert len(other._processes) == started
 
 
@@ -111,8 +111,8 @@ class Outer(Table):
 
 
 def table(seed, rows=5):
-    draw = np.random.default_rng(seed)
-    return Outer(draw.random(rows), draw.random((rows, 3)), Inner(draw.random(rows)))
+    rng = np.random.default_rng(seed)
+    return Outer(rng.random(rows), rng.random((rows, 3)), Inner(rng.random(rows)))
 
 
 def columns(value):
@@ -120,11 +120,11 @@ def columns(value):
 
 
 def test_take_is_indexing_every_column():
-    some = table(0)
+    original = table(0)
     for rows in (np.array([4, 0, 0]), np.array([True, False, False, True, False])):
-        for taken, column in zip(columns(some.take(rows)), columns(some), strict=True):
+        for taken, column in zip(columns(original.take(rows)), columns(original), strict=True):
             assert_array_equal(taken, column[rows])
-    assert some.take(np.array([1])).name == "shared"
+    assert original.take(np.array([1])).name == "shared"
 
 
 def test_repeat_keeps_copies_of_a_row_together():
@@ -133,18 +133,18 @@ def test_repeat_keeps_copies_of_a_row_together():
 
 
 def test_put_replaces_rows_and_leaves_the_original_alone():
-    some, rows = table(2), np.array([3, 1])
-    before = [column.copy() for column in columns(some)]
-    put = some.put(rows, table(3, rows=2))
-    for after, other, column, old in zip(
-        columns(put), columns(table(3, rows=2)), columns(some), before, strict=True
+    original, rows = table(2), np.array([3, 1])
+    before = [column.copy() for column in columns(original)]
+    put = original.put(rows, table(3, rows=2))
+    for after, new, column, old in zip(
+        columns(put), columns(table(3, rows=2)), columns(original), before, strict=True
     ):
-        assert_array_equal(after[rows], other)
+        assert_array_equal(after[rows], new)
         assert_array_equal(after[[0, 2, 4]], old[[0, 2, 4]])
         assert_array_equal(column, old)
 
 
-def test_a_plain_file_is_read_whole(tmp_path):
+def test_a_plain_file_is_read_up_to_its_limit(tmp_path):
     path = tmp_path / "a"
     path.write_bytes(b"1234")
     assert read_plain_file(path, 4) == b"1234"
@@ -152,7 +152,7 @@ def test_a_plain_file_is_read_whole(tmp_path):
         read_plain_file(path, 3)
 
 
-def test_what_never_ends_is_not_begun(tmp_path):
+def test_pipes_devices_and_folders_are_not_read(tmp_path):
     os.mkfifo(tmp_path / "pipe")
     for path in (tmp_path / "pipe", "/dev/zero"):
         with pytest.raises(OSError, match="not a plain file"):
@@ -171,10 +171,12 @@ def test_what_never_ends_is_not_begun(tmp_path):
         ("", False, "uv pip install --python {python} 'ocs-design[dxf,step]'"),
     ],
 )
-def test_the_command_is_that_of_the_environment(receipt, has_pip, command, tmp_path, monkeypatch):
+def test_the_command_for_an_extra_fits_the_environment(
+    receipt, has_pip, command, tmp_path, monkeypatch
+):
     if receipt:
         (tmp_path / receipt).touch()
     monkeypatch.setattr(sys, "prefix", str(tmp_path))
     monkeypatch.setattr(errors, "find_spec", lambda name: has_pip or None)
-    wanted = command.format(name=tmp_path.name, python=sys.executable)
-    assert extra_command("dxf", "step") == wanted
+    expected = command.format(name=tmp_path.name, python=sys.executable)
+    assert extra_command("dxf", "step") == expected

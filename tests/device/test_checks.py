@@ -1,4 +1,4 @@
-"""Figures of a device that an edited `design.json` may hold, and none of which can be made."""
+"""Impossible figures of a device, as in an edited `design.json`, are refused."""
 
 from dataclasses import make_dataclass, replace
 from pathlib import Path
@@ -21,7 +21,7 @@ from ocs_design.robot.mass import MassProperties
 DEVICE = read_design(Path(__file__).parents[1] / "data" / "design_0_1_0.json").ocs.device()
 
 
-def test_a_device_that_was_designed_can_be_made():
+def test_a_designed_device_passes():
     check_device(DEVICE)
 
 
@@ -37,7 +37,7 @@ def test_a_device_that_was_designed_can_be_made():
         ("motor", "speed_max"),
     ],
 )
-def test_figures_of_no_device_are_refused(part, figure, value):
+def test_impossible_figures_are_refused(part, figure, value):
     changed = replace(getattr(DEVICE, part), **{figure: value})
     with pytest.raises(OcsError, match=f"{part}.{figure} is"):
         check_device(replace(DEVICE, **{part: changed}))
@@ -56,7 +56,7 @@ def test_figures_of_no_device_are_refused(part, figure, value):
         ),
     ],
 )
-def test_a_fault_tells_the_rule_that_is_broken(change, rule):
+def test_a_fault_is_reported_with_its_range(change, rule):
     with pytest.raises(OcsError) as refused:
         check_device(replace(DEVICE, **change))
     assert rule in str(refused.value)
@@ -64,29 +64,29 @@ def test_a_fault_tells_the_rule_that_is_broken(change, rule):
 
 
 @pytest.mark.parametrize("record", [Flywheel, Web, Hub, HoleRing, Mast, CarrierPlate, Pedestal])
-def test_every_number_of_a_part_states_its_range(record):
-    """Those of parts that the device of these tests lacks, too."""
+def test_every_number_of_a_part_has_a_range(record):
+    """Also numbers of parts that the device of these tests does not have."""
     assert ranges_of(record)
 
 
-def test_a_number_without_a_range_is_not_forgotten():
+def test_a_number_without_a_range_is_an_error():
     with pytest.raises(TypeError, match=r"Row.height states no range"):
         ranges_of(make_dataclass("Row", [("radius", Length), ("height", float | None)]))
 
 
 @pytest.mark.parametrize("value", [0.0, -5.0, np.nan])
 @pytest.mark.parametrize("figure", ["voltage", "current_max", "power_max"])
-def test_a_supply_that_gives_nothing_is_refused(figure, value):
+def test_impossible_supplies_are_refused(figure, value):
     supply = Supply(24.0)
     check_device(replace(DEVICE, supply=supply))
     with pytest.raises(OcsError, match=f"supply.{figure} is"):
         check_device(replace(DEVICE, supply=replace(supply, **{figure: value})))
 
 
-def test_a_bore_may_be_none_but_not_wider_than_the_wheel():
-    for bore, right in ((0.0, True), (DEVICE.flywheel.outer_radius, False), (1e-320, False)):
+def test_a_bore_is_zero_or_possible_and_within_the_wheel():
+    for bore, valid in ((0.0, True), (DEVICE.flywheel.outer_radius, False), (1e-320, False)):
         device = replace(DEVICE, flywheel=replace(DEVICE.flywheel, inner_radius=bore))
-        if right:
+        if valid:
             check_device(device)
         else:
             with pytest.raises(OcsError, match="inner_radius"):
@@ -102,7 +102,7 @@ def test_modules_without_direction_or_place_are_refused(change):
         check_device(replace(DEVICE, modules=(replace(left, **change), right)))
 
 
-@pytest.mark.parametrize(("share", "told"), [(0.29, 0), (0.31, 1)])
-def test_a_device_that_is_a_third_of_the_robot_is_minded(share, told):
+@pytest.mark.parametrize(("share", "count"), [(0.29, 0), (0.31, 1)])
+def test_a_device_of_a_third_of_the_robot_raises_a_warning(share, count):
     robot = MassProperties(DEVICE.mass / share, np.zeros(3), np.eye(3))
-    assert len(device_warnings(DEVICE, robot)) == told
+    assert len(device_warnings(DEVICE, robot)) == count

@@ -1,4 +1,4 @@
-"""Joints and balance of a device: which kind it is, its figures, and what is not known."""
+"""Joints, balance and resonances of a device: kinds, figures, and missing data."""
 
 from dataclasses import replace
 from math import pi
@@ -35,47 +35,47 @@ THREADS = Mounting(shaft_diameter=0.004, rotor=BoltCircle(0.012, 4, "M3"))
 
 
 def device(mounting=THREADS, web=STEEL, hub=HUB, **wheel):
-    """A rim of steel on such a web and motor, 0.9 N m and 9,000 rpm."""
+    """A device with a rim of steel on this web and motor, 0.9 N m and 9,000 rpm."""
     drive = replace(EC45, mounting=mounting, torque_limit=0.9, speed_max=300.0 * pi)
-    joined = Web(web.name, web.density, WEB_THICKNESS, 0.02, hub)
-    made = replace(PAPER_WHEEL, material=STEEL.name, density=STEEL.density, web=joined)
-    sized = replace(made, inner_radius=0.036, outer_radius=0.04, height=0.006, **wheel)
+    joined_web = Web(web.name, web.density, WEB_THICKNESS, 0.02, hub)
+    rim = replace(PAPER_WHEEL, material=STEEL.name, density=STEEL.density, web=joined_web)
+    sized = replace(rim, inner_radius=0.036, outer_radius=0.04, height=0.006, **wheel)
     return replace(driven_device(drive=drive), flywheel=sized)
 
 
-def named(found):
-    return {joint.name: joint for joint in joints_of(found)}
+def joints_by_name(device):
+    return {joint.name: joint for joint in joints_of(device)}
 
 
-def test_one_piece_stands_its_largest_stress_at_over_speed():
-    one = device()
-    joint = named(one)["largest stress of the wheel"]
-    turning = TurningRings.of(wheel_rings(one.flywheel), 1.2 * one.motor.top_speed)
-    peaks = [turning.peak(ring) for ring in range(3)]
-    assert joint.demand == pytest.approx(max(*peaks, turning.peak_at_hole(0, 0.006)))
+def test_a_wheel_of_one_piece_withstands_overspeed():
+    one_piece = device()
+    joint = joints_by_name(one_piece)["largest stress of the wheel"]
+    rings = TurningRings.of(wheel_rings(one_piece.flywheel), 1.2 * one_piece.motor.top_speed)
+    peaks = [rings.peak(ring) for ring in range(3)]
+    assert joint.demand == pytest.approx(max(*peaks, rings.peak_at_hole(0, 0.006)))
     assert joint.capacity == STEEL.yield_strength
     assert joint.margin == pytest.approx(joint.capacity / joint.demand)
     assert joint.note.startswith("in the web at 1.2 x top speed, against yield; one piece")
-    # With the square of the speed.
-    where, factor = yield_margin(one, 1.05 * one.motor.top_speed)
-    assert where == "the web"
+    # The stress grows with the square of the speed.
+    part, factor = yield_margin(one_piece, 1.05 * one_piece.motor.top_speed)
+    assert part == "the web"
     assert factor == pytest.approx(joint.margin * (1.2 / 1.05) ** 2)
-    assert one.motor.top_speed == pytest.approx(min(650.4, 300.0 * pi))
+    assert one_piece.motor.top_speed == pytest.approx(min(650.4, 300.0 * pi))
 
 
-def test_a_foot_breaks_at_the_shock_that_is_told():
+def test_the_landing_shock_that_a_foot_withstands():
     """253 g x 355 m/s^2 x 45.6 mm on 39.2 mm x (5 mm)^2 / 6: the 25 MPa of PETG across layers."""
-    shock = named(device())["landing shock, foot"]
+    shock = joints_by_name(device())["landing shock, foot"]
     assert (shock.demand, shock.unit) == (pytest.approx(20.0 * 9.80665), "m/s2")
     assert 0.2527 * shock.capacity * 0.0456 / (0.03924 * 0.005**2 / 6.0) == pytest.approx(
         25e6, rel=1e-3
     )
-    assert "landing shock, cage" not in named(device())
+    assert "landing shock, cage" not in joints_by_name(device())
 
 
-def test_screws_of_a_plate_have_a_shock_too():
-    """Beside the cage and the foot that it has without a plate."""
-    plain, on_plate = named(DEVICES["caged"]), named(DEVICES["on a plate"])
+def test_screws_of_a_plate_have_a_landing_shock_too():
+    """In addition to those of cage and foot, which a device without a plate has."""
+    plain, on_plate = joints_by_name(DEVICES["caged"]), joints_by_name(DEVICES["on a plate"])
     (name,) = set(on_plate) - set(plain)
     assert name == "landing shock, screws in the trunk"
     assert on_plate[name].note.endswith(
@@ -84,78 +84,83 @@ def test_screws_of_a_plate_have_a_shock_too():
     assert on_plate[name].margin > 1.0
 
 
-def test_a_cages_floor_breaks_at_the_shock_that_is_told():
-    """As a plate that motor and wheel tilt, clamped by the posts along half of its edge."""
+def test_the_landing_shock_that_the_floor_of_a_cage_withstands():
+    """A plate under the moment of motor and wheel, clamped by the posts along half of its edge."""
     caged = DEVICES["caged"]
-    shock, cage = named(caged)["landing shock, cage"], motor_mount(caged).cage
-    tilting = caged.motor.mass * cage.motor_length / 2.0 + caged.flywheel.mass * cage.seat
-    around = cage.holes.screws
-    held = around.radius + screw(around.thread).head_diameter / 2.0
-    ring = (cage.bore**2 - held**2) / (cage.bore**2 + held**2)
-    stress = 3.0 * tilting * shock.capacity * ring / (pi * held * cage.floor**2)
+    shock, cage = joints_by_name(caged)["landing shock, cage"], motor_mount(caged).cage
+    moment_per_acceleration = (
+        caged.motor.mass * cage.motor_length / 2.0 + caged.flywheel.mass * cage.seat
+    )
+    circle = cage.holes.screws
+    radius = circle.radius + screw(circle.thread).head_diameter / 2.0
+    ring = (cage.bore**2 - radius**2) / (cage.bore**2 + radius**2)
+    stress = 3.0 * moment_per_acceleration * shock.capacity * ring / (pi * radius * cage.floor**2)
     assert 2.0 * stress == pytest.approx(47e6)
     assert shock.margin > 1.0
 
 
-def test_heads_of_a_cage_s_screws_sink_in_where_its_floor_is_strong():
-    """Four M2 press on 4 x 6.82 mm^2 around their holes, of PETG that yields at 47 MPa: 1,282 N.
+def test_heads_of_cage_screws_limit_the_shock_where_the_floor_is_strong():
+    """Four M2 press on 4 x 6.82 mm^2 of PETG, which yields at 47 MPa: 1,282 N.
 
-    They hold what the motor's side of the foot weighs, as it is exported.
+    They hold the mass of motor, wheel and printed cage.
     """
     thick = replace(DEVICES["caged"], foot_plate=0.03)
     heavy = replace(thick, motor=replace(thick.motor, mass=8.0, length=0.08))
-    found = named(heavy)["landing shock, cage"]
+    joint = joints_by_name(heavy)["landing shock, cage"]
     printed = next(part for part in printed_parts(heavy) if part.name == "cage")
-    held = 8.0 + heavy.flywheel.mass + 1270.0 * part_manifold(printed).volume()
-    assert "heads of the cage's screws" in found.note
-    assert found.capacity == pytest.approx(1282.0 / held, rel=1e-3)
-    assert type(found.capacity) is float, "design.json takes no number of NumPy's"
+    mass = 8.0 + heavy.flywheel.mass + 1270.0 * part_manifold(printed).volume()
+    assert "heads of the cage's screws" in joint.note
+    assert joint.capacity == pytest.approx(1282.0 / mass, rel=1e-3)
+    assert type(joint.capacity) is float, "design.json accepts no NumPy scalars"
 
 
 def test_a_rim_on_another_web_is_shrunk_on():
-    found = named(device(web=ALUMINIUM))
-    assert set(found) >= {"rim joint", "web of the shrink fit", "rim of the shrink fit"}
+    joints = joints_by_name(device(web=ALUMINIUM))
+    assert set(joints) >= {"rim joint", "web of the shrink fit", "rim of the shrink fit"}
     fit = rim_fit(device(web=ALUMINIUM))
-    joint = found["rim joint"]
-    # 1.5 x 0.9 N m, and no more than the last micrometre across adds.
+    joint = joints["rim joint"]
+    # 1.5 x 0.9 N m, rounded up by at most a micrometre of interference.
     assert (joint.demand, joint.capacity, joint.unit) == (pytest.approx(1.35), fit.torque, "N m")
     assert 1.0 <= joint.margin < 1.5
     assert (2e6 * fit.least, 2e6 * fit.most) == pytest.approx(
         (round(2e6 * fit.least), round(2e6 * fit.most))
     )
     assert rim_fit(device()) is None
-    where, factor = yield_margin(device(web=ALUMINIUM), device().motor.top_speed)
-    both = {name: found[f"{name} of the shrink fit"].margin for name in ("web", "rim")}
-    assert (where.removeprefix("the "), factor) == min(both.items(), key=lambda each: each[1])
+    part, factor = yield_margin(device(web=ALUMINIUM), device().motor.top_speed)
+    both = {name: joints[f"{name} of the shrink fit"].margin for name in ("web", "rim")}
+    assert (part.removeprefix("the "), factor) == min(both.items(), key=lambda item: item[1])
 
 
-def test_screws_carry_by_friction_and_shear_is_a_reserve():
-    found = named(device())
-    joint, reserve = found["shaft joint"], found["shaft joint, screws in shear"]
+def test_screws_transmit_torque_by_friction_with_shear_as_reserve():
+    joints = joints_by_name(device())
+    joint, reserve = joints["shaft joint"], joints["shaft joint, screws in shear"]
     assert joint.demand == reserve.demand == pytest.approx(1.35)
     assert joint.capacity == friction_torque(screw("M3"), 4, 0.006)
     assert reserve.capacity > joint.capacity > joint.demand
 
 
-def test_a_shaft_alone_is_bonded():
+def test_a_wheel_on_a_shaft_is_bonded():
     """4 mm by 4.6 mm under half of 25 MPa: pi d^2 / 2 L tau = 1.445 N m."""
-    joint = named(device(Mounting(shaft_diameter=0.004)))["shaft joint"]
+    joint = joints_by_name(device(Mounting(shaft_diameter=0.004)))["shaft joint"]
     assert joint.capacity == pytest.approx(1.445, abs=1e-3)
     assert "alone carries nothing" in joint.note
 
 
 @pytest.mark.parametrize(
-    ("out", "length", "carries"), [(0.0035, 2.3, 0.723), (0.005, 3.8, 1.194), (0.009, 4.6, 1.445)]
+    ("shaft_length", "bond_length", "capacity"),
+    [(0.0035, 2.3, 0.723), (0.005, 3.8, 1.194), (0.009, 4.6, 1.445)],
 )
-def test_a_bond_is_as_long_as_the_shaft_reaches_into_the_hub(out, length, carries):
+def test_the_bond_is_as_long_as_the_shaft_in_the_hub(shaft_length, bond_length, capacity):
     """A cage holds the motor 1 mm behind the hub of 5 mm, whose first 0.2 mm are a chamfer."""
-    mounting = Mounting(0.004, None, BoltCircle(0.025, 4, "M3"), Face.BACK, out, ShaftForm.PLAIN)
-    made = device(mounting)
-    made = replace(made, motor=replace(made.motor, diameter=0.0556, length=0.025))
-    assert motor_front(motor_mount(made), made.flywheel.height) == pytest.approx(-0.0035)
-    joint = named(made)["shaft joint"]
-    assert joint.capacity == pytest.approx(carries, abs=1e-3)
-    assert f"over {length} mm of its length in the hub" in joint.note
+    mounting = Mounting(
+        0.004, None, BoltCircle(0.025, 4, "M3"), Face.BACK, shaft_length, ShaftForm.PLAIN
+    )
+    bonded = device(mounting)
+    bonded = replace(bonded, motor=replace(bonded.motor, diameter=0.0556, length=0.025))
+    assert motor_front(motor_mount(bonded), bonded.flywheel.height) == pytest.approx(-0.0035)
+    joint = joints_by_name(bonded)["shaft joint"]
+    assert joint.capacity == pytest.approx(capacity, abs=1e-3)
+    assert f"over {bond_length} mm of its length in the hub" in joint.note
 
 
 @pytest.mark.parametrize(
@@ -163,17 +168,18 @@ def test_a_bond_is_as_long_as_the_shaft_reaches_into_the_hub(out, length, carrie
     [device(None), replace(device(), motor=replace(device().motor, gear="5 to 1"))],
     ids=["no mounting", "a gear"],
 )
-def test_what_is_not_in_the_catalogue_has_no_capacity(unknown):
-    joint = named(unknown)["shaft joint"]
+def test_unknown_joints_have_no_capacity(unknown):
+    joint = joints_by_name(unknown)["shaft joint"]
     assert joint.capacity is joint.margin is None
     assert "not in the catalogue" in joint.note
 
 
-def test_a_material_without_figures_has_no_capacity():
+def test_an_unknown_material_has_no_capacity():
     plain = replace(device().flywheel, material="stainless-paper")
     unknown = replace(plain, web=replace(plain.web, material="stainless-paper"))
     assert (
-        named(replace(device(), flywheel=unknown))["largest stress of the wheel"].capacity is None
+        joints_by_name(replace(device(), flywheel=unknown))["largest stress of the wheel"].capacity
+        is None
     )
 
 
@@ -182,15 +188,15 @@ def test_massless_spokes_have_no_joints():
 
 
 def test_balance_is_g_6_3_at_the_top_speed():
-    """20,160 rpm leave 2.98 um."""
+    """At 20,160 rpm the permissible eccentricity is 2.98 um."""
     fast = replace(EC45, no_load_speed=3000.0, speed_max=20_160.0 * pi / 30.0)
-    found = balance_of(replace(device(), motor=fast))
-    assert 1e6 * found.eccentricity == pytest.approx(2.98, abs=0.005)
-    assert found.unbalance == pytest.approx(found.eccentricity * PAPER_WHEEL.mass)
+    balance = balance_of(replace(device(), motor=fast))
+    assert 1e6 * balance.eccentricity == pytest.approx(2.98, abs=0.005)
+    assert balance.unbalance == pytest.approx(balance.eccentricity * PAPER_WHEEL.mass)
 
 
-def test_what_centres_a_wheel_says_how_far_off_it_may_be():
-    """H7/h6 on 4 mm: (12 + 8) / 2 um, and half of 50 um of run-out; on screws half of 0.1 mm."""
+def test_the_eccentricity_depends_on_what_centres_the_wheel():
+    """H7/h6 on 4 mm: (12 + 8) / 2 um and half of 50 um of run-out; with screws half of 0.1 mm."""
     on_shaft, screwed = (
         balance_of(device()),
         balance_of(device(replace(THREADS, shaft_diameter=None))),
@@ -201,8 +207,8 @@ def test_what_centres_a_wheel_says_how_far_off_it_may_be():
     assert balance_of(device(None)).off_centre is None
 
 
-def test_resonances_are_those_below_top_speed_and_follow_the_unbalance():
-    """U w^2 at the mode, and Q = 1 / (2 x 1 %) times U / m, whatever the stiffness."""
+def test_resonances_below_top_speed_follow_the_unbalance():
+    """The force is U w^2, the amplitude U / m times Q = 1 / (2 x 1 %) for any stiffness."""
     device = DEVICES["on a plate"]
     device = replace(device, motor=replace(device.motor, no_load_speed=3e3, speed_max=None))
     plate, foot, twisted = resonances_of(device)
@@ -217,8 +223,8 @@ def test_resonances_are_those_below_top_speed_and_follow_the_unbalance():
     assert resonances_of(slow) == ()
 
 
-def test_on_a_pedestal_a_module_shakes_on_its_seat_and_its_foot_is_softer():
-    """Springs in a row: one over the square of their frequency is the sum of those of each."""
+def test_a_pedestal_adds_a_mode_and_softens_that_of_the_foot():
+    """Springs in series: inverse squares of their frequencies add up."""
     device = DEVICES["caged"]
     device = replace(device, motor=replace(device.motor, no_load_speed=3e5, speed_max=None))
     (alone,), foot = resonances_of(device), foot_of(device)
@@ -230,10 +236,10 @@ def test_on_a_pedestal_a_module_shakes_on_its_seat_and_its_foot_is_softer():
     )
     seat, stem = resonances_of(replace(device, pedestals=seats))
     mass = device.flywheel.mass + device.carrier.mass
-    square, along = (max(each) for each in zip(*map(seat_compliance, seats), strict=True))
+    square, along = (max(values) for values in zip(*map(seat_compliance, seats), strict=True))
     assert (2.0 * pi * seat.frequency) ** 2 == pytest.approx(1.0 / (square * mass))
-    own = 1.0 / (2.0 * pi) ** 2 / (along * mass)
-    assert stem.frequency**-2 == pytest.approx(alone.frequency**-2 + 1.0 / own)
+    of_seat = 1.0 / (2.0 * pi) ** 2 / (along * mass)
+    assert stem.frequency**-2 == pytest.approx(alone.frequency**-2 + 1.0 / of_seat)
     assert stem.frequency < alone.frequency
     assert (seat.name, stem.name) == ("pedestal", "foot")
     assert seat.force == pytest.approx(

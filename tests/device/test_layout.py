@@ -20,8 +20,8 @@ ZERO_JOINTS = np.diag([0.0367786, 0.0705134, 0.0802918])
 MOMENTUM = st.floats(0.1, 10.0)
 
 
-def wheel_momentum(momenta, incidence):
-    """What each wheel must hold, from the corners of what two wheels of +-1 can do together."""
+def required_wheel_momentum(momenta, incidence):
+    """Momentum that each wheel needs, by solving for two wheels directly."""
     axes = PAIR.axes(incidence)[..., :2, :]
     return np.abs(np.linalg.solve(axes, np.asarray(momenta)[:, None])).max(axis=(-2, -1))
 
@@ -40,22 +40,24 @@ def test_solo12_simultaneous():
         assert np.degrees(angle) == pytest.approx(39.87, abs=5e-3)
 
 
-def test_weighted_contains_the_papers_criterion():
-    found = incidence_by_criterion(STANCE, 3.0 * np.diag(STANCE)[:2])
-    assert found[Criterion.WEIGHTED] == pytest.approx(found[Criterion.EQUAL_RATE], rel=1e-15)
+def test_weighted_includes_the_criterion_of_the_paper():
+    incidences = incidence_by_criterion(STANCE, 3.0 * np.diag(STANCE)[:2])
+    assert incidences[Criterion.WEIGHTED] == pytest.approx(
+        incidences[Criterion.EQUAL_RATE], rel=1e-15
+    )
 
 
 def test_single_axes():
-    found = incidence_by_criterion(STANCE, np.array([0.1, 0.2]))
-    assert found[Criterion.PITCH_ONLY] == 0.0
-    assert found[Criterion.ROLL_ONLY] == np.pi / 2.0
+    incidences = incidence_by_criterion(STANCE, np.array([0.1, 0.2]))
+    assert incidences[Criterion.PITCH_ONLY] == 0.0
+    assert incidences[Criterion.ROLL_ONLY] == np.pi / 2.0
     for axis, expected in ((0, np.pi / 2.0), (1, 0.0)):
         one_axis = incidence_by_criterion(STANCE, np.eye(2)[axis])
         assert one_axis[Criterion.WEIGHTED] == expected
         assert one_axis[Criterion.SIMULTANEOUS] == expected
 
 
-def test_no_momenta_count_as_none_given():
+def test_zero_momenta_count_as_none():
     assert incidence_by_criterion(STANCE, np.zeros(2)) == incidence_by_criterion(STANCE)
 
 
@@ -68,9 +70,9 @@ def test_equal_rate_and_weighted_treat_both_axes_alike(roll, pitch):
 @pytest.mark.parametrize("momenta", [(1.0, 1.0), (0.02, 0.9), (5.0, 0.3), (0.06, 0.103)])
 def test_simultaneous_is_the_least_over_all_angles(momenta):
     grid = np.linspace(1e-4, np.pi / 2.0 - 1e-4, 5001)
-    by_grid = wheel_momentum(momenta, grid)
+    by_grid = required_wheel_momentum(momenta, grid)
     best = incidence_by_criterion(STANCE, np.array(momenta))[Criterion.SIMULTANEOUS]
-    at_best = wheel_momentum(momenta, best)
+    at_best = required_wheel_momentum(momenta, best)
     assert at_best <= by_grid.min() * (1.0 + 1e-12)
     assert at_best == pytest.approx(by_grid.min(), rel=1e-6)
     assert abs(grid[by_grid.argmin()] - best) < 2.0 * (grid[1] - grid[0])
@@ -96,6 +98,6 @@ def test_heading_drift_keeps_yaw_momentum_zero():
 @given(ANGLE, st.floats(-0.1, 0.1))
 def test_a_pair_turned_on_its_feet_is_one_at_another_incidence(incidence, error):
     axes = PAIR.axes(incidence)
-    turns = Rotation.from_rotvec(error * PAIR.feet(axes).T).as_matrix()
-    turned = np.einsum("kij,jk->ik", turns, axes)
-    np.testing.assert_allclose(turned, PAIR.axes(incidence + error), atol=1e-12)
+    rotations = Rotation.from_rotvec(error * PAIR.feet(axes).T).as_matrix()
+    rotated = np.einsum("kij,jk->ik", rotations, axes)
+    np.testing.assert_allclose(rotated, PAIR.axes(incidence + error), atol=1e-12)

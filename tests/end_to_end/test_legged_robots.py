@@ -4,23 +4,13 @@ import re
 
 import pytest
 import trimesh
-from anatomy import ANATOMY
-from anatomy import LEGGED as WALKING
 from commands import environment, run, run_measured
 from robots import ROBOTS
 
 from ocs_design.parts.carrier_plate import TUBES
 
-# With the upper bodies of a humanoid, whose files have no legs.
-LEGGED = [*WALKING, *(name for name in ANATOMY if name.startswith("alex_description"))]
-
 SOLO12 = "solo_description/robots/solo12"
 TALOS = "talos_data/robots/talos_full_v2"
-
-
-def test_there_are_34_robots():
-    assert len(LEGGED) == 34
-    assert set(LEGGED) >= {SOLO12, TALOS}
 
 
 @pytest.mark.exhaustive  # `benchmarks/legged_robots.py` has all 34, `test_product.py` a small one.

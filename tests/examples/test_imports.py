@@ -1,4 +1,4 @@
-"""What the scripts beside the package import from it exists: most of them run in no test."""
+"""Names that scripts import from the package exist, since most scripts run in no test."""
 
 import ast
 from contextlib import suppress
@@ -11,7 +11,7 @@ ROOT = Path(__file__).parents[2]
 
 
 def exists(module, name):
-    """Whether a module has this name, or a package this module."""
+    """Whether a module has this name, or a package this submodule."""
     if hasattr(import_module(module), name):
         return True
     with suppress(ModuleNotFoundError):
@@ -20,13 +20,13 @@ def exists(module, name):
 
 
 @pytest.mark.parametrize("folder", ["examples", "benchmarks", "docs"])
-def test_what_scripts_import_from_the_package_exists(folder):
+def test_imported_names_exist(folder):
     imported = [
-        (path.name, node.module, each.name)
+        (path.name, node.module, alias.name)
         for path in (ROOT / folder).rglob("*.py")
         for node in ast.walk(ast.parse(path.read_text()))
         if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("ocs_design")
-        for each in node.names
+        for alias in node.names
     ]
     assert imported
-    assert [each for each in imported if not exists(*each[1:])] == []
+    assert [name for name in imported if not exists(*name[1:])] == []

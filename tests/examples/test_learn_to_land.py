@@ -1,4 +1,4 @@
-"""The policy of the example: its numbers, and one flight with them."""
+"""The policy of the example, in one flight."""
 
 from pathlib import Path
 
@@ -22,11 +22,11 @@ def example(tmp_path):
 
 @pytest.mark.slow
 def test_a_policy_that_turns_towards_level_earns_more_than_one_that_turns_away(example):
-    seen, told = example.env.reset(options={"sample": 3})
-    # About pitch, as the law pushes at the start: on the way, against the rate.
+    observation, info = example.env.reset(options={"sample": 3})
+    # Torque about pitch as of the control law at the start, and against the rate.
     towards = np.zeros((2, 4))
-    towards[:, 3], towards[:, 1] = -30.0 * np.sign(told["law"]), 6.0 * np.sign(told["law"])
-    assert (np.sign(example.action(towards, seen)) == np.sign(told["law"])).all()
+    towards[:, 3], towards[:, 1] = -30.0 * np.sign(info["law"]), 6.0 * np.sign(info["law"])
+    assert (np.sign(example.action(towards, observation)) == np.sign(info["law"])).all()
     good, idle, bad = (example.learnt((sign * towards, 3)) for sign in (1.0, 0.0, -1.0))
     assert good > idle + 0.05 > bad + 0.1
     assert example.tested(None, 3)[0] is True

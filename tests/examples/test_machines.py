@@ -1,4 +1,4 @@
-"""The machines of docs/machines.md: what is asked for follows from what was published of them."""
+"""The machines of docs/machines.md: their specifications follow from published data."""
 
 import re
 from dataclasses import replace
@@ -25,7 +25,7 @@ MACHINES = ROOT / "examples" / "machines"
 
 
 def load(name):
-    """A script beside the specifications."""
+    """A script in the folder of the specifications."""
     return script_at(MACHINES / f"{name}.py")
 
 
@@ -43,19 +43,19 @@ def test_a_specification_has_the_machine_without_its_wheels(name):
     assert robot.mass == pytest.approx(machine.body.mass, abs=1e-4)
     largest = np.abs(machine.body.inertia).max()
     np.testing.assert_allclose(robot.inertia, machine.body.inertia, atol=5e-4 * largest)
-    # Of a pair only the left wheel's place is stated.
-    stated_at = np.reshape(specified.ocs.position, (-1, 3))
-    np.testing.assert_allclose(stated_at, machine.positions[: len(stated_at)], atol=6e-5)
+    # For a pair only the place of the left wheel is specified.
+    positions = np.reshape(specified.ocs.position, (-1, 3))
+    np.testing.assert_allclose(positions, machine.positions[: len(positions)], atol=6e-5)
     for maneuver in specified.maneuvers:
         np.testing.assert_allclose(maneuver.pivot, machine.pivot, atol=6e-5)
 
 
-def test_a_body_less_a_part_and_with_it_again_is_the_same():
+def test_subtracting_and_adding_a_part_restores_the_body():
     body, part = standing.REX_HOPPER, standing.Body.of(0.7, (0.1, -0.2, 0.3), (1e-3, 2e-3, 2e-3))
-    again = body - part + part
-    assert again.mass == pytest.approx(body.mass)
-    np.testing.assert_allclose(again.com, body.com, atol=1e-12)
-    np.testing.assert_allclose(again.inertia, body.inertia, atol=1e-12)
+    restored = body - part + part
+    assert restored.mass == pytest.approx(body.mass)
+    np.testing.assert_allclose(restored.com, body.com, atol=1e-12)
+    np.testing.assert_allclose(restored.inertia, body.inertia, atol=1e-12)
 
 
 REX_HOPPER_LINKS = """
@@ -79,41 +79,41 @@ REX_HOPPER_LINKS = """
 <inertial pos="-0.0085979 0 0" mass="0.329528" diaginertia="0.00082888 0.00043238 0.00043238"/>
 </body></body></worldbody></mujoco>
 """
-"""Mass properties and places of the links, as hopper_rev10_mjcf.xml has them."""
+"""Mass properties and places of the links from hopper_rev10_mjcf.xml."""
 
 
 def test_rex_hopper_is_the_sum_of_its_links():
     model = mujoco.MjModel.from_xml_string(REX_HOPPER_LINKS)
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
-    links, whole = mujoco_mass_properties(model, data), standing.REX_HOPPER
-    assert whole.mass == pytest.approx(links.mass, abs=5e-5)
-    np.testing.assert_allclose(whole.inertia, links.inertia, atol=1e-6)
-    np.testing.assert_allclose(whole.com - [0.0, 0.0, 0.45], links.com, atol=2e-3)
+    links, total = mujoco_mass_properties(model, data), standing.REX_HOPPER
+    assert total.mass == pytest.approx(links.mass, abs=5e-5)
+    np.testing.assert_allclose(total.inertia, links.inertia, atol=1e-6)
+    np.testing.assert_allclose(total.com - [0.0, 0.0, 0.45], links.com, atol=2e-3)
 
 
 @pytest.mark.parametrize(
-    ("name", "mass", "spin", "across"),
+    ("name", "mass", "spin", "transverse"),
     [("wheelbot", 0.3, 5.03e-4, 2.59e-4), ("rex_hopper", 0.78203, 6.60959e-3, 3.3873e-3)],
 )
-def test_the_room_for_a_rim_is_that_of_the_wheel_as_built(name, mass, spin, across):
-    """The hollow cylinder with the stated mass and both stated inertias."""
-    room = specification(name).flywheel
-    height = sqrt(12.0 / mass * (across - spin / 2.0))
-    assert room.h_max == pytest.approx(height, rel=0.02)
+def test_the_limits_of_the_rim_are_those_of_the_wheel_as_built(name, mass, spin, transverse):
+    """The hollow cylinder with the published mass and both published inertias."""
+    limits = specification(name).flywheel
+    height = sqrt(12.0 / mass * (transverse - spin / 2.0))
+    assert limits.h_max == pytest.approx(height, rel=0.02)
     gyration = sqrt(spin / mass)
-    assert room.r_max >= gyration
-    inner = sqrt(max(2.0 * spin / mass - room.r_max**2, 0.0))
+    assert limits.r_max >= gyration
+    inner = sqrt(max(2.0 * spin / mass - limits.r_max**2, 0.0))
     if inner > 0.0:
-        density = mass / (np.pi * height * (room.r_max**2 - inner**2))
-        whole = inner, room.r_max, height, density
-        assert cylinder_spin_inertia(*whole) == pytest.approx(spin)
-        assert cylinder_transverse_inertia(*whole) == pytest.approx(across)
+        density = mass / (np.pi * height * (limits.r_max**2 - inner**2))
+        cylinder = inner, limits.r_max, height, density
+        assert cylinder_spin_inertia(*cylinder) == pytest.approx(spin)
+        assert cylinder_transverse_inertia(*cylinder) == pytest.approx(transverse)
 
 
 @pytest.fixture(scope="module")
-def hopping():
-    """REx Hopper's device."""
+def hopper():
+    """Specification of REx Hopper, and its device without reserve."""
     specified = specification("rex_hopper")
     nominal = replace(specified, requirement=replace(specified.requirement, reliability=0.5))
     return specified, design_device(read_task(nominal), ranked=False).device
@@ -121,46 +121,48 @@ def hopping():
 
 @pytest.mark.slow
 @pytest.mark.parametrize("axis", ["roll", "pitch"])
-def test_rex_hopper_as_built_catches_itself_from_16_degrees(axis, hopping):
-    """Planned with everything that its motors have, in the whole machine as published."""
-    specified, device = hopping
-    whole = standing.REX_HOPPER
-    body = MassProperties(whole.mass, whole.com, whole.inertia)
-    for degrees, catches in ((16.0, True), (17.0, False)):
+def test_rex_hopper_as_built_recovers_from_16_degrees(axis, hopper):
+    """A plan with the full torque of its motors, for the machine as published."""
+    specified, device = hopper
+    machine = standing.REX_HOPPER
+    body = MassProperties(machine.mass, machine.com, machine.inertia)
+    for degrees, feasible in ((16.0, True), (17.0, False)):
         start = {"roll": 0.0, "pitch": 0.0, axis: np.radians(degrees)}
-        catch = replace(specified.maneuvers[0], pivot=(0.0, 0.0, 0.0), **start).on(body)
+        maneuver = replace(specified.maneuvers[0], pivot=(0.0, 0.0, 0.0), **start).on(body)
         built = Gyrostat(
-            catch.inertia, device.axes, 6.60959e-3, 0.0, catch.gravity_moment, catch.axis
+            maneuver.inertia, device.axes, 6.60959e-3, 0.0, maneuver.gravity_moment, maneuver.axis
         )
-        planned = least_power_turn(catch.boundary(0.0), built, drive_line_of(device))
-        assert (not planned.failure) == catches
+        planned = least_power_turn(maneuver.boundary(0.0), built, drive_line_of(device))
+        assert (not planned.failure) == feasible
 
 
 BUS = (180.0, np.array([18.0, 28.0, 22.0]))
-"""Mass and inertia of the satellite of the sizing table."""
+"""Mass and inertia of the satellite in the sizing table."""
 
 SLEWS = [(10.0, 20.0), (30.0, 30.0), (60.0, 60.0), (90.0, 60.0), (45.0, 10.0)]
 """Its slews: angle [deg] and time [s]."""
 
 
-def test_the_satellite_is_the_tables_in_small_and_slews_as_the_table_has_it():
+def test_the_satellite_is_that_of_the_table_scaled_down():
     specified = specification("satellite")
     robot = read_specified_robot(specified)
     mass, inertia = BUS
     np.testing.assert_allclose(
         np.diag(robot.inertia), inertia * (robot.mass / mass) ** (5.0 / 3.0), rtol=5e-4
     )
-    asked = resolve(specified, robot, 1.0).requirement.maneuvers
-    angles = np.degrees([each.roll + each.pitch + each.yaw for each in asked])
-    turned = set(zip(angles.round(6).tolist(), [each.duration for each in asked], strict=True))
-    assert turned == {(90.0, 60.0), (45.0, 10.0)}
-    # Those that are left out take less torque, 4 I theta / T^2, and less momentum, 2 I theta / T.
+    maneuvers = resolve(specified, robot, 1.0).requirement.maneuvers
+    angles = np.degrees([maneuver.roll + maneuver.pitch + maneuver.yaw for maneuver in maneuvers])
+    slews = set(
+        zip(angles.round(6).tolist(), [maneuver.duration for maneuver in maneuvers], strict=True)
+    )
+    assert slews == {(90.0, 60.0), (45.0, 10.0)}
+    # The other slews need less torque, 4 I theta / T^2, and less momentum, 2 I theta / T.
     hardest = 45.0 / 10.0**2, 45.0 / 10.0
     assert all(angle / time**2 <= hardest[0] for angle, time in SLEWS)
     assert all(angle / time <= hardest[1] for angle, time in SLEWS)
 
 
-def test_the_push_is_what_an_ankle_takes():
+def test_the_push_is_that_which_an_ankle_balances():
     """75 kg with the centre of mass at 0.559 of 1.75 m: 4.75 N s at 2 cm."""
     push = standing.Push(75.0, 0.559 * 1.75)
     assert push.impulse == pytest.approx(4.75, abs=0.01)
@@ -168,11 +170,11 @@ def test_the_push_is_what_an_ankle_takes():
     assert np.linalg.norm(maneuver.impulse) == pytest.approx(push.impulse, rel=1e-2)
 
 
-def test_on_the_page_every_device_flies_and_the_mini_wheelbots_own_motor_has_no_room():
+def test_on_the_page_every_device_passes_but_not_the_mini_wheelbots_own_motor():
     """A slow test of the docs runs the script again and compares what it prints with the page."""
     page = (ROOT / "docs" / "machines.md").read_text()
     flown = re.findall(r"^flown +(.+)$", page, re.MULTILINE)
     assert len(flown) == len(load("compare").MACHINES)
-    for done, of in re.findall(r"(\d+) of (\d+)", " ".join(flown)):
-        assert done == of
+    for passed, total in re.findall(r"(\d+) of (\d+)", " ".join(flown)):
+        assert passed == total
     assert re.search(r"^same motor: .* MN4006 .*, and no rim of that size fits", page, re.MULTILINE)

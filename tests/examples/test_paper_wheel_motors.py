@@ -1,4 +1,4 @@
-"""The example that flies the paper's wheel on every motor, for three of them."""
+"""The example that flies the paper's wheel on every motor, here on three."""
 
 from pathlib import Path
 
@@ -16,11 +16,11 @@ def example():
 
 
 @pytest.mark.slow
-def test_a_gimbal_motor_is_too_slow_and_a_strong_and_fast_one_does_all_three(example):
+def test_three_motors_pass_none_two_and_three_maneuvers(example):
     robot = example.read_robot(example.ROBOT)
     maneuvers = example.MANEUVERS
     motors = [motor(name) for name in ("GL40 KV70", "EC 45 flat 70 W 411812", "MN4010 KV580")]
-    devices = [example.on_paper_wheel(robot, each, 24.0) for each in motors]
+    devices = [example.on_paper_wheel(robot, row, 24.0) for row in motors]
     verdicts = example.fly(robot, devices, maneuvers)
     assert [[verdict.passed for verdict in three] for three in verdicts] == [
         [False, False, False],

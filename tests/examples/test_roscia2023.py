@@ -1,4 +1,4 @@
-"""docs/paper.md says what the scripts in examples/roscia2023 find."""
+"""docs/paper.md has the results of the scripts in examples/roscia2023."""
 
 import importlib
 import sys
@@ -14,21 +14,21 @@ PAGE = ROOT / "docs" / "paper.md"
 
 @pytest.fixture(scope="module")
 def script():
-    """With what it loads from beside it, as when it is run."""
+    """The script, with the path of the modules beside it as when it is run."""
     path = list(sys.path)
     yield script_at(SCRIPT)
     sys.path[:] = path
 
 
-def stale(text):
+def outdated(text):
     return text.replace("7.447", "9").replace("0.1027 kg", "0.2 kg").replace("30.18°", "40°")
 
 
-def test_the_page_shows_what_the_script_finds(script):
+def test_the_page_has_the_results_of_the_script(script):
     text = PAGE.read_text()
     assert script.page(text, flown=False) == text
-    assert stale(text) != text
-    assert script.page(stale(text), flown=False) == text
+    assert outdated(text) != text
+    assert script.page(outdated(text), flown=False) == text
 
 
 def test_every_table_is_on_the_page(script):
@@ -48,7 +48,7 @@ def test_every_figure_is_on_the_page_and_small():
 
 @pytest.mark.slow
 @pytest.mark.usefixtures("no_files")
-def test_the_flights_on_the_page_are_those_that_are_flown(script, tmp_path):
+def test_the_flights_on_the_page_are_reproduced(script, tmp_path):
     text = PAGE.read_text()
     assert script.page(text) == text
     drawn = importlib.import_module("drawings").draw_all(

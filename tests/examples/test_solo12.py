@@ -1,4 +1,4 @@
-"""The example robot is Solo12: same names, same mass properties as the public description."""
+"""The example robot has the names and mass properties of the public description of Solo12."""
 
 from pathlib import Path
 from xml.etree import ElementTree
@@ -19,8 +19,8 @@ POSTURES = {
     "stand": lambda leg, joint: KNEES_OUT[leg[0]].get(joint, 0.0),
     "legs spread": lambda leg, joint: 0.9 if leg[1] == "L" and joint == "HAA" else -0.3,
     "folded": lambda leg, joint: {"HAA": 0.0, "HFE": 1.5, "KFE": -3.0}[joint],
-    # No symmetry left, so that a sign lost on one leg cannot hide behind its mirror image.
-    "each joint its own": lambda leg, joint: (
+    # Without symmetry, so that the wrong sign of one leg is not cancelled by another leg.
+    "asymmetric": lambda leg, joint: (
         0.37 * ("FL", "FR", "HL", "HR").index(leg) - 0.61 * ("HAA", "HFE", "KFE").index(joint)
     ),
 }
@@ -37,18 +37,18 @@ def public():
 
 
 def composite(model, angle_of):
-    """With the joints held, trunk at the origin."""
+    """Mass properties with locked joints and the trunk at the origin."""
     angles = {name: angle_of(*name.split("_")) for name in model.names[2:]}
     return pinocchio_mass_properties(model, configuration(model, angles))
 
 
 @pytest.mark.parametrize("posture", POSTURES)
 def test_composite_inertia_is_that_of_the_public_robot(example, public, posture):
-    found, expected = (composite(model, POSTURES[posture]) for model in (example, public))
-    assert_same_mass_properties(found, expected, TOLERANCE)
+    actual, expected = (composite(model, POSTURES[posture]) for model in (example, public))
+    assert_same_mass_properties(actual, expected, TOLERANCE)
 
 
-def test_figures_of_the_theory(example):
+def test_inertias_are_those_of_the_theory(example):
     """The locked inertias that docs/theory.md quotes."""
     zero, stand = (composite(example, POSTURES[name]) for name in ("zero", "stand"))
     assert stand.mass == pytest.approx(2.50000279, abs=1e-12)
@@ -64,7 +64,7 @@ def test_names_and_joint_frames_are_those_of_the_public_robot(example, public):
         assert ours.isApprox(theirs, 1e-12)
 
 
-def test_feet_stand_where_the_public_robot_has_them(example, public):
+def test_feet_are_in_the_places_of_the_public_robot(example, public):
     for leg in ("FL", "FR", "HL", "HR"):
         ours, theirs = (m.frames[m.getFrameId(f"{leg}_FOOT")].placement for m in (example, public))
         assert ours.isApprox(theirs, 1e-12)

@@ -1,4 +1,4 @@
-"""The environment flies what the campaign flies, and keeps Gymnasium's promises."""
+"""The environment gives the flights of the campaign and conforms to Gymnasium."""
 
 import importlib
 import sys
@@ -33,43 +33,43 @@ def flight(folder):
     return OcsFlight(folder)
 
 
-def flown(env, choose, **options):
-    """Rewards of an episode, what was seen, and the verdict."""
-    readings, told = env.reset(seed=1, options=options)
-    rewards, observed, ended = [], [readings], False
-    while not ended:
-        readings, reward, ended, truncated, told = env.step(choose(readings, told))
+def episode(env, policy, **options):
+    """Rewards, observations and final information of an episode."""
+    readings, info = env.reset(seed=1, options=options)
+    rewards, observations, terminated = [], [readings], False
+    while not terminated:
+        readings, reward, terminated, truncated, info = env.step(policy(readings, info))
         rewards.append(reward)
-        observed.append(readings)
+        observations.append(readings)
         assert not truncated
-    return np.array(rewards), np.array(observed), told
+    return np.array(rewards), np.array(observations), info
 
 
-def by_law(_seen, told):
-    return told["law"]
+def by_law(_observation, info):
+    return info["law"]
 
 
-def test_it_keeps_the_promises_of_gymnasium(folder):
+def test_it_conforms_to_gymnasium(folder):
     env = gymnasium.make(f"ocs_design.gym:{ENVIRONMENT}", design=str(folder), maneuver="drop")
     check_env(env.unwrapped, skip_render_check=True)
 
 
 @pytest.fixture(scope="module")
 def outcomes(flight):
-    """One sample, flown in every maneuver."""
+    """One sample in every maneuver."""
     return fly_samples(flight._campaign, [5])
 
 
 @pytest.mark.parametrize("maneuver", ["drop", "disturbance", "back-flip"])
-def test_under_the_law_an_episode_is_the_flight_of_that_sample(flight, outcomes, maneuver):
-    number = [each.maneuver.name for each in flight._campaign.flights].index(maneuver)
-    _, _, told = flown(flight, by_law, maneuver=maneuver, sample=5)
-    assert told["passed"] is bool(outcomes.passed[0, number])
+def test_with_the_control_law_an_episode_is_the_flight_of_its_sample(flight, outcomes, maneuver):
+    number = [other.maneuver.name for other in flight._campaign.flights].index(maneuver)
+    _, _, info = episode(flight, by_law, maneuver=maneuver, sample=5)
+    assert info["passed"] is bool(outcomes.passed[0, number])
     expected = metrics_of(outcomes, 0, number)
-    found = flight.metrics
+    metrics = flight.metrics
     for name in ("touchdown_roll", "touchdown_pitch", "turned_angle", "peak_wheel_speed"):
-        assert getattr(found, name) == pytest.approx(getattr(expected, name), abs=1e-6)
-    assert found.touchdown_time == expected.touchdown_time
+        assert getattr(metrics, name) == pytest.approx(getattr(expected, name), abs=1e-6)
+    assert metrics.touchdown_time == expected.touchdown_time
 
 
 def test_three_wheels_fly_as_in_the_campaign(tmp_path):
@@ -77,37 +77,37 @@ def test_three_wheels_fly_as_in_the_campaign(tmp_path):
     env = OcsFlight(tmp_path, maneuver="drop")
     assert env.action_space.shape == (3,)
     assert env.observation_space.shape == (14,)
-    _, _, told = flown(env, by_law, sample=5)
-    number = [each.maneuver.name for each in env._campaign.flights].index("drop")
+    _, _, info = episode(env, by_law, sample=5)
+    number = [flight.maneuver.name for flight in env._campaign.flights].index("drop")
     expected = fly_samples(env._campaign, [5])
-    assert told["passed"] is bool(expected.passed[0, number])
+    assert info["passed"] is bool(expected.passed[0, number])
     for name in ("touchdown_roll", "touchdown_pitch"):
-        found = getattr(env.metrics, name)
-        assert found == pytest.approx(expected.metric(name)[0, number], abs=1e-6)
+        value = getattr(env.metrics, name)
+        assert value == pytest.approx(expected.metric(name)[0, number], abs=1e-6)
 
 
-def test_a_seed_draws_the_same_robot_and_another_one_another(flight):
+def test_the_seed_determines_the_sampled_robot(flight):
     def first(seed):
         return flight.reset(seed=seed)[1]["sample"]
 
     assert first(1) == first(1) != first(2)
-    one, other = (flown(flight, by_law, maneuver="drop", sample=k)[1] for k in (1, 2))
-    np.testing.assert_array_equal(one, flown(flight, by_law, maneuver="drop", sample=1)[1])
+    one, other = (episode(flight, by_law, maneuver="drop", sample=k)[1] for k in (1, 2))
+    np.testing.assert_array_equal(one, episode(flight, by_law, maneuver="drop", sample=1)[1])
     assert np.abs(one[-1] - other[-1]).max() > 1e-3
 
 
 def test_idle_wheels_do_not_level_a_tilted_fall_and_the_law_does(flight):
-    levelled, _, good = flown(flight, by_law, maneuver="drop", sample=0)
-    idle, readings, bad = flown(flight, lambda *_: np.zeros(2), maneuver="drop", sample=0)
-    assert (good["passed"], bad["passed"]) == (True, False)
-    # 30 deg is a sixth of half a turn, and one for passing and one for coming down level.
+    levelled, _, law_info = episode(flight, by_law, maneuver="drop", sample=0)
+    idle, readings, idle_info = episode(flight, lambda *_: np.zeros(2), maneuver="drop", sample=0)
+    assert (law_info["passed"], idle_info["passed"]) == (True, False)
+    # 30 of 180 deg, 1 for passing and 1 for landing level.
     assert levelled.sum() == pytest.approx(2.0 + 30.0 / 180.0, abs=0.02)
     assert abs(idle.sum()) < 0.02
     assert readings[0, -2] == 1.0
     assert list(np.unique(readings[:, -1])) == [0.0, 1.0]
 
 
-def test_full_action_is_what_the_motor_can_give(flight):
+def test_full_action_is_the_available_torque(flight):
     flight.reset(options={"maneuver": "drop", "sample": 0})
     motor = flight._flights.device.motor.at_the_air_gap
     for _ in range(40):
@@ -120,7 +120,7 @@ def test_full_action_is_what_the_motor_can_give(flight):
     assert (speeds <= flight._top_speed).all()
 
 
-def test_what_cannot_be_flown_is_told(flight, folder, tmp_path):
+def test_unknown_maneuvers_and_missing_motors_are_errors(flight, folder, tmp_path):
     with pytest.raises(UsageError, match="somersault"):
         OcsFlight(folder, maneuver="somersault")
     with pytest.raises(UsageError, match="somersault"):
@@ -132,30 +132,30 @@ def test_what_cannot_be_flown_is_told(flight, folder, tmp_path):
 
 
 @pytest.mark.parametrize("action", [[0.0], [0.0, np.nan]])
-def test_an_action_that_is_none_is_told(flight, action):
+def test_invalid_actions_are_errors(flight, action):
     flight.reset(seed=0)
     with pytest.raises(UsageError, match="an action must fit"):
         flight.step(action)
 
 
-def test_a_sample_may_be_a_number_of_numpy(flight):
+def test_a_sample_may_be_a_numpy_integer(flight):
     assert flight.reset(options={"sample": np.int64(3)})[1]["sample"] == 3
 
 
 @pytest.mark.parametrize("sample", [-1, 0.5, "1"])
-def test_a_sample_that_is_none_is_told(flight, sample):
+def test_invalid_samples_are_errors(flight, sample):
     with pytest.raises(UsageError, match="whole number"):
         flight.reset(options={"sample": sample})
 
 
-def test_without_gymnasium_the_cure_is_told(monkeypatch):
+def test_without_gymnasium_the_hint_is_the_command_that_installs_it(monkeypatch):
     monkeypatch.setitem(sys.modules, "gymnasium.envs.registration", None)
     with pytest.raises(MissingToolError, match="needs gymnasium, which is not installed") as caught:
         importlib.reload(ocs_design.gym)
     assert "[gym]" in caught.value.hint
 
 
-def test_its_pictures_show_the_robot(folder):
+def test_rendered_pictures_show_the_robot(folder):
     env = OcsFlight(folder, maneuver="drop", render_mode="rgb_array_list")
     env.reset(seed=0)
     env.step(np.zeros(2))

@@ -1,4 +1,4 @@
-"""The symbolic tree against MuJoCo's inverse dynamics, for robots of unlike conventions."""
+"""The symbolic tree against MuJoCo's inverse dynamics, for robots of different conventions."""
 
 import casadi as ca
 import mujoco
@@ -27,19 +27,19 @@ def robot(request):
 
 
 def rate_matrix(angles):
-    """From the rates of roll, pitch and yaw to the rate in B."""
+    """Matrix from the rates of roll, pitch and yaw to the angular velocity in B."""
     (sr, sp, _), (cr, cp, _) = np.sin(angles), np.cos(angles)
     return np.array([[1.0, 0.0, -sp], [0.0, cr, sr * cp], [0.0, -sr, cr * cp]])
 
 
-def put(data, body, y, v, a):
-    """The same motion in MuJoCo's coordinates: linear ones in the world, angular ones in B."""
+def set_motion(data, body, y, v, a):
+    """Set MuJoCo's motion, linear in the world and angular in B; return the base's rotation."""
     rotation, matrix, step = rotation_from_rpy(*y[3:6]), rate_matrix(y[3:6]), 1e-6
     ahead, behind = (rate_matrix(y[3:6] + s * step * v[3:6]) for s in (1.0, -1.0))
-    changing = (ahead - behind) / (2.0 * step) @ v[3:6]
+    matrix_rate = (ahead - behind) / (2.0 * step) @ v[3:6]
     data.qpos[:7] = *y[:3], *quaternion(rotation)
     data.qvel[:6] = *v[:3], *(matrix @ v[3:6])
-    data.qacc[:6] = *a[:3], *(matrix @ a[3:6] + changing)
+    data.qacc[:6] = *a[:3], *(matrix @ a[3:6] + matrix_rate)
     for i, joint in enumerate(body.joints):
         data.joint(joint.name).qpos[:] = y[6 + i]
         data.joint(joint.name).qvel[:] = v[6 + i]
@@ -47,7 +47,7 @@ def put(data, body, y, v, a):
     return rotation
 
 
-def test_inverse_dynamics_and_momentum_are_mujocos(robot):
+def test_inverse_dynamics_and_momentum_are_those_of_mujoco(robot):
     body = LeggedBody.of(robot)
     base = FloatingBase.of(body)
     model = build_spec(robot, visuals=False).spec.compile()
@@ -56,13 +56,13 @@ def test_inverse_dynamics_and_momentum_are_mujocos(robot):
     model.dof_damping[:] = 0.0
     data, random = mujoco.MjData(model), np.random.default_rng(0)
     y, v, a = random.normal(size=(3, 6 + len(body.joints)))
-    rotation = put(data, body, 0.3 * y, v, a)
+    rotation = set_motion(data, body, 0.3 * y, v, a)
     mujoco.mj_inverse(model, data)
     outputs = [base.torque, base.imbalance, base.spin, base.momentum]
     inputs = [base.y, base.v, base.a, base.f, base.load.packed()]
     load = Load.values(9.81, body.trunk)
-    found = ca.Function("all", inputs, outputs)(0.3 * y, v, a, np.zeros(base.f.numel()), load)
-    torque, imbalance, spin, momentum = (np.asarray(each).ravel() for each in found)
+    results = ca.Function("all", inputs, outputs)(0.3 * y, v, a, np.zeros(base.f.numel()), load)
+    torque, imbalance, spin, momentum = (np.asarray(value).ravel() for value in results)
     resistance = [
         joint.damping * speed + joint.friction * np.tanh(speed / 0.1)
         for joint, speed in zip(body.joints, v[6:], strict=True)
@@ -78,7 +78,7 @@ def test_inverse_dynamics_and_momentum_are_mujocos(robot):
 
 
 def test_a_force_on_a_foot_acts_at_its_sole(robot):
-    """Virtual work: joints bear a force by its Jacobian, at the ball's lowest point."""
+    """Virtual work: joint torques follow from the Jacobian at the ball's lowest point."""
     body = LeggedBody.of(robot)
     base = FloatingBase.of(body)
     random = np.random.default_rng(1)
@@ -86,8 +86,10 @@ def test_a_force_on_a_foot_acts_at_its_sole(robot):
     force = random.normal(size=base.f.numel())
     inputs = [base.y, base.v, base.a, base.f, base.load.packed()]
     torque = ca.Function("torque", inputs, [base.torque])
-    still, load = np.zeros_like(y), Load.values(9.81, body.trunk)
-    pushed = torque(y, still, still, force, load) - torque(y, still, still, 0.0 * force, load)
+    no_motion, load = np.zeros_like(y), Load.values(9.81, body.trunk)
+    pushed = torque(y, no_motion, no_motion, force, load) - torque(
+        y, no_motion, no_motion, 0.0 * force, load
+    )
     expected = []
     for i, (leg, where) in enumerate(body.joint_slices):
         pose = leg.chain.pose(body.posture[where])

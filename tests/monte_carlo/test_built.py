@@ -1,4 +1,4 @@
-"""A built robot against one that MuJoCo compiles from the same figures."""
+"""Sampled robots against models that MuJoCo compiles with the same deviations."""
 
 from dataclasses import replace
 
@@ -20,16 +20,18 @@ from ocs_design.simulation.wheel_law import Allocation, Gains, WheelLaw
 UP = (0.0, 0.0, 1.0)
 
 
-def drawn(robot, device=None, **specified):
-    """World as designed, and as built with these errors and no others."""
-    given = {**NO_UNCERTAINTY, **{name: Constant(value) for name, value in specified.items()}}
-    campaign = short_campaign(robot, UncertaintySection(**given), device=device, drop_only=True)
+def designed_and_sampled(robot, device=None, **errors):
+    """The world as designed, and as sampled with these errors and no others."""
+    distributions = {**NO_UNCERTAINTY, **{name: Constant(value) for name, value in errors.items()}}
+    campaign = short_campaign(
+        robot, UncertaintySection(**distributions), device=device, drop_only=True
+    )
     world = campaign.flights[0].world
     return world, campaign.built(campaign.sample(0), 0)
 
 
 def accelerations(model):
-    """In some state of motion."""
+    """Accelerations in a random state of motion."""
     data, rng = mujoco.MjData(model), np.random.default_rng(0)
     data.qpos[:] = data.qpos + 0.1 * rng.normal(size=model.nq)
     data.qvel[:] = rng.normal(size=model.nv)
@@ -39,8 +41,10 @@ def accelerations(model):
     return data.qacc.copy()
 
 
-def assert_moves_as_compiled(robot, built, designed, device, change=lambda scene: None, least=1e-4):
-    """As the scene with this device and this change, and otherwise than as designed."""
+def assert_same_accelerations(
+    robot, built, designed, device, change=lambda scene: None, least=1e-4
+):
+    """Accelerations are those of a compiled scene with this device and change, unlike designed."""
     scene = robot_scene(robot)
     change(scene)
     model = compile_scene(scene, robot, device, Wheels.ACTIVE, 9.81)
@@ -67,17 +71,17 @@ def shift_trunk(scene):
 @pytest.mark.parametrize(
     ("specified", "change"), [({"mass_error": 0.1}, scale_all), ({"com_error": 0.01}, shift_trunk)]
 )
-def test_it_moves_as_one_that_is_compiled_so(solo12, specified, change):
-    world, robot = drawn(solo12, **specified)
-    assert_moves_as_compiled(solo12, robot, world, driven_device(), change, least=1e-3)
+def test_errors_of_mass_and_centre_act_as_in_a_compiled_model(solo12, specified, change):
+    world, robot = designed_and_sampled(solo12, **specified)
+    assert_same_accelerations(solo12, robot, world, driven_device(), change, least=1e-3)
 
 
-def test_wheels_that_are_both_off_are_a_device_at_another_incidence(solo12):
+def test_equal_incidence_errors_are_another_incidence(solo12):
     error = np.radians(2.0)
     device = paper_device()
-    world, robot = drawn(solo12, device, incidence_error=error)
-    turned = device.at_incidence(device.incidence + error)
-    assert_moves_as_compiled(solo12, robot, world, turned)
+    world, robot = designed_and_sampled(solo12, device, incidence_error=error)
+    at_other_incidence = device.at_incidence(device.incidence + error)
+    assert_same_accelerations(solo12, robot, world, at_other_incidence)
 
 
 @pytest.mark.parametrize(
@@ -85,27 +89,27 @@ def test_wheels_that_are_both_off_are_a_device_at_another_incidence(solo12):
     [
         ("single", [UP]),
         ("triad", [UP, UP, UP]),
-        # The upright wheel's module lies on its side, its foot towards the front.
+        # The module of the wheel about z lies on its side, with its foot towards the front.
         ("orthogonal", [UP, UP, (1.0, 0.0, 0.0)]),
     ],
 )
-def test_modules_that_are_off_are_turned_on_their_feet(solo12, name, feet):
-    """Clockwise as seen from above, where they stand; what carries a wheel stays where it was."""
+def test_incidence_errors_rotate_modules_on_their_feet(solo12, name, feet):
+    """Clockwise as seen from above; the carriers stay in their places."""
     device = replace(layout_device(Layout(LayoutName(name))), carrier=paper_device().carrier)
     error = np.radians(2.0)
-    world, robot = drawn(solo12, device, incidence_error=error)
-    turns = Rotation.from_rotvec(-error * np.array(feet)).as_matrix()
+    world, robot = designed_and_sampled(solo12, device, incidence_error=error)
+    rotations = Rotation.from_rotvec(-error * np.array(feet)).as_matrix()
     modules = [
-        replace(module, axis=turn @ module.axis)
-        for module, turn in zip(device.modules, turns, strict=True)
+        replace(module, axis=rotation @ module.axis)
+        for module, rotation in zip(device.modules, rotations, strict=True)
     ]
-    turned = replace(device, modules=tuple(modules))
-    assert_moves_as_compiled(solo12, robot, world, turned)
+    rotated = replace(device, modules=tuple(modules))
+    assert_same_accelerations(solo12, robot, world, rotated)
 
 
-def test_second_moments_of_mass_grow_by_what_is_drawn(solo12):
+def test_inertia_errors_scale_the_second_moments_of_mass(solo12):
     """About the trunk's centre of mass: `S = tr(I)/2 - I` scales with 1 + e in every direction."""
-    world, robot = drawn(solo12, inertia_error=0.2)
+    world, robot = designed_and_sampled(solo12, inertia_error=0.2)
     trunk = world.addresses.trunk
 
     def inertia(model):
@@ -118,7 +122,7 @@ def test_second_moments_of_mass_grow_by_what_is_drawn(solo12):
     assert robot.model.body_mass[trunk] == world.model.body_mass[trunk]
 
 
-def test_an_inertia_stays_physical_however_far_it_is_off(solo12):
+def test_inertias_stay_physical_for_large_errors(solo12):
     campaign = short_campaign(solo12, drop_only=True)
     world = campaign.flights[0].world
     for seed in range(20):
@@ -126,69 +130,69 @@ def test_an_inertia_stays_physical_however_far_it_is_off(solo12):
         sample = campaign.sample(0)
         values = sample.values.copy()
         values[1:4] = errors
-        own = campaign.built(replace(sample, values=values), 0).model
-        low, middle, high = np.sort(own.body_inertia[world.addresses.trunk])
+        model = campaign.built(replace(sample, values=values), 0).model
+        low, middle, high = np.sort(model.body_inertia[world.addresses.trunk])
         assert low > 0.0
         assert high <= (low + middle) * (1.0 + 1e-12)
 
 
-def test_a_world_without_errors_flies_to_the_last_bit_as_designed(solo12):
-    world, robot = drawn(solo12)
-    designed, flown = simulate([world]), simulate([robot])
+def test_a_sample_without_errors_flies_exactly_as_designed(solo12):
+    world, robot = designed_and_sampled(solo12)
+    designed, sampled = simulate([world]), simulate([robot])
     for name in ("attitude", "rate", "wheel_speed", "wheel_torque", "com", "momentum"):
-        np.testing.assert_array_equal(getattr(designed, name), getattr(flown, name))
+        np.testing.assert_array_equal(getattr(designed, name), getattr(sampled, name))
     assert designed.wheel_torque.any()
 
 
-def test_friction_takes_its_part_of_the_torque_once(solo12):
-    """A wheel gets what the nominal motor gives, whose limits are without friction."""
+def test_friction_is_subtracted_once(solo12):
+    """A wheel gets the torque of the nominal motor, whose limits already include friction."""
     device, friction = driven_device(), 0.01
-    rubbing = replace(device.motor, torque_constant=1.0, no_load_current=friction)
-    device = replace(device, motor=rubbing)
-    _, robot = drawn(solo12, device, coulomb_friction=friction)
-    response, limits = robot.law.wheel_response, MotorLimits.of(rubbing)
+    with_friction = replace(device.motor, torque_constant=1.0, no_load_current=friction)
+    device = replace(device, motor=with_friction)
+    _, robot = designed_and_sampled(solo12, device, coulomb_friction=friction)
+    response, limits = robot.law.wheel_response, MotorLimits.of(with_friction)
     law = WheelLaw.of(robot.body, Gains(0.0, 0.0), limits, Allocation.PSEUDO_INVERSE)
 
-    def given(speed):
-        asked = np.copysign(9.0, speed)
+    def torques(speed):
+        command = np.copysign(9.0, speed)
         drives = ImperfectDrives(
             [robot.imperfections], response=response, instants=1, hold=5, step=1e-3
         )
-        _, real = drives.applied_torque(0, robot.law.feasible_torque(asked, speed, 5e-3), speed)
-        return real[0, 0], law.feasible_torque(asked, speed, 5e-3)[0]
+        _, real = drives.applied_torque(0, robot.law.feasible_torque(command, speed, 5e-3), speed)
+        return real[0, 0], law.feasible_torque(command, speed, 5e-3)[0]
 
-    real, nominal = given(np.array([[10.0, -20.0]]))
+    real, nominal = torques(np.array([[10.0, -20.0]]))
     np.testing.assert_allclose(np.abs(nominal), device.motor.torque_limit)
     np.testing.assert_allclose(real, nominal, rtol=1e-12)
-    # On the line as well, but for the speed that friction takes within the control step.
-    real, nominal = given(0.9 * rubbing.no_load_speed * np.array([[1.0, -1.0]]))
-    held = 1.0 - USED_SHARE * limits.line_slope / (limits.line_slope + 5e-3 * response.item())
-    np.testing.assert_allclose(real, nominal - held * friction * np.sign(nominal), rtol=1e-9)
+    # On the voltage line too, except for the speed lost by friction within the control step.
+    real, nominal = torques(0.9 * with_friction.no_load_speed * np.array([[1.0, -1.0]]))
+    share = 1.0 - USED_SHARE * limits.line_slope / (limits.line_slope + 5e-3 * response.item())
+    np.testing.assert_allclose(real, nominal - share * friction * np.sign(nominal), rtol=1e-9)
 
 
 @pytest.mark.parametrize("period", [1e-3, 5e-3, 2e-2])
-def test_a_push_off_leaves_the_rate_that_is_drawn(solo12, period):
-    """By an impulse that the momentum balance knows; a drop has no push-off."""
-    given = UncertaintySection(**{**NO_UNCERTAINTY, "takeoff_rate": Constant(0.1)})
-    campaign = replace(short_campaign(solo12, given, until=0.09), hold=round(period / 1e-3))
+def test_a_takeoff_rate_is_an_impulse_at_push_off(solo12, period):
+    """The impulse is in the momentum balance; a drop has no push-off."""
+    distributions = UncertaintySection(**{**NO_UNCERTAINTY, "takeoff_rate": Constant(0.1)})
+    campaign = replace(short_campaign(solo12, distributions, until=0.09), hold=round(period / 1e-3))
     jump, drop = campaign.worlds(campaign.sample(0))
     assert len(drop.pushes) == 1
-    flown = simulate([replace(jump, law=WheelLaw.off(2))], hold=campaign.hold)
-    np.testing.assert_allclose(flown.rate[-1, 0, :2], 0.1, rtol=0.03)
+    recording = simulate([replace(jump, law=WheelLaw.off(2))], hold=campaign.hold)
+    np.testing.assert_allclose(recording.rate[-1, 0, :2], 0.1, rtol=0.03)
     expected = jump.body.actuated_inertia[:, :2] @ [0.1, 0.1]
-    np.testing.assert_allclose(flown.impulse[-1, 0], expected, rtol=1e-3, atol=1e-6)
-    gained = flown.momentum[-1, 0] - flown.momentum[0, 0]
-    np.testing.assert_allclose(gained, flown.impulse[-1, 0], atol=1e-9)
+    np.testing.assert_allclose(recording.impulse[-1, 0], expected, rtol=1e-3, atol=1e-6)
+    gained = recording.momentum[-1, 0] - recording.momentum[0, 0]
+    np.testing.assert_allclose(gained, recording.impulse[-1, 0], atol=1e-9)
 
 
-def test_data_that_others_have_worked_with_change_no_bit(solo12):
-    """One sample after the other with the same data to work with, and each with its own."""
+def test_reused_mujoco_data_does_not_change_the_samples(solo12):
+    """Samples built one after the other with shared data, and each with its own."""
     campaign = short_campaign(solo12, UncertaintySection(), drop_only=True)
     scratch = mujoco.MjData(campaign.flights[0].world.model)
     for index in range(3):
         sample = campaign.sample(index)
-        alone, shared = (campaign.built(sample, 0, own).model for own in (None, scratch))
+        alone, shared = (campaign.built(sample, 0, data).model for data in (None, scratch))
         for name in dir(alone):
-            found = getattr(alone, name)
-            if isinstance(found, np.ndarray):
-                np.testing.assert_array_equal(found, getattr(shared, name), err_msg=name)
+            value = getattr(alone, name)
+            if isinstance(value, np.ndarray):
+                np.testing.assert_array_equal(value, getattr(shared, name), err_msg=name)

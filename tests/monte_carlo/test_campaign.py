@@ -1,4 +1,4 @@
-"""Samples flown: alone or among others, on one thread or two, they have the same numbers."""
+"""Samples give the same results alone or in a batch and on any number of threads."""
 
 from dataclasses import replace
 
@@ -36,78 +36,76 @@ def outcomes(campaign):
     return fly_samples(campaign, range(6))
 
 
-def test_numbers_do_not_depend_on_company_or_threads(campaign, outcomes):
+def test_results_do_not_depend_on_other_samples_or_threads(campaign, outcomes):
     assert_same(fly_samples(campaign, [4], threads=1), outcomes.take(slice(4, 5)))
     pair = fly_samples(campaign, [5, 2], threads=1)
     assert_same(pair.take(slice(1, 2)), outcomes.take(slice(2, 3)))
 
 
 @pytest.mark.slow
-def test_blocks_that_fly_at_once_come_back_as_they_are(campaign, outcomes):
+def test_blocks_flown_in_parallel_give_the_same_results(campaign, outcomes):
     blocks = blocks_of(len(outcomes.index), 2)
-    flown = dict(fly_here(campaign, blocks, lambda _done: None, at_once=2))
-    assert list(flown) == list(blocks)
-    assert_same(Outcomes.joined(list(flown.values())), outcomes)
+    by_block = dict(fly_here(campaign, blocks, lambda _done: None, at_once=2))
+    assert list(by_block) == list(blocks)
+    assert_same(Outcomes.joined(list(by_block.values())), outcomes)
 
 
 @pytest.mark.slow
-def test_numbers_do_not_depend_on_how_many_fit_into_memory(campaign, outcomes, monkeypatch):
+def test_results_do_not_depend_on_the_memory_limit(campaign, outcomes, monkeypatch):
     monkeypatch.setattr(ocs_design.monte_carlo.campaign, "MEMORY", 1)
-    told = []
-    assert_same(fly_samples(campaign, range(3), progress=told.append), outcomes.take(slice(3)))
-    assert told == sorted(told)
-    assert told[-1] == 1.0
+    progress = []
+    assert_same(fly_samples(campaign, range(3), progress=progress.append), outcomes.take(slice(3)))
+    assert progress == sorted(progress)
+    assert progress[-1] == 1.0
 
 
 @pytest.mark.slow
-def test_a_sample_whose_momentum_is_off_is_flown_again_in_half_the_step(
+def test_a_sample_with_a_momentum_error_is_repeated_with_half_the_step(
     campaign, outcomes, monkeypatch
 ):
-    """With a gate in their middle: half of the flights; delays and friction stay what they were."""
+    """With the median error as limit half of the flights are repeated, with the same sample."""
     error = outcomes.metric("momentum_error")[:2]
     gate = float(np.median(error))
     monkeypatch.setattr("ocs_design.simulation.scenario.MOMENTUM_GATE", gate)
-    again = fly_samples(campaign, range(2))
-    off, finer = error > gate, again.metric("momentum_error")
-    np.testing.assert_array_equal(again.metrics[~off], outcomes.metrics[:2][~off])
-    assert np.all(finer[off] < 0.2 * error[off])
+    repeated = fly_samples(campaign, range(2))
+    inaccurate, finer = error > gate, repeated.metric("momentum_error")
+    np.testing.assert_array_equal(repeated.metrics[~inaccurate], outcomes.metrics[:2][~inaccurate])
+    assert np.all(finer[inaccurate] < 0.2 * error[inaccurate])
     for name in ("touchdown_pitch", "touchdown_roll"):
-        change = again.metric(name) - outcomes.metric(name)[:2]
-        assert 0.0 < np.abs(change[off]).max() < np.radians(0.05)
+        change = repeated.metric(name) - outcomes.metric(name)[:2]
+        assert 0.0 < np.abs(change[inaccurate]).max() < np.radians(0.05)
     for number, run in enumerate(replayed(campaign, campaign.sample(1))):
-        assert run.metrics == metrics_of(again, 1, number)
+        assert run.metrics == metrics_of(repeated, 1, number)
 
 
 @pytest.mark.parametrize("name", fast_subset(3, [name for name in LayoutName if name != "by-hand"]))
 def test_every_wheel_has_errors_of_its_own(solo12, name, tmp_path):
-    """Flown, kept as a block and as a case, and certified, whatever the layout."""
+    """For any layout: flights, stored blocks, cases and the certificate."""
     layout = Layout(name)
     campaign = short_campaign(solo12, device=layout_device(layout), drop_only=True)
     outcomes = fly_samples(campaign, range(2))
     assert len(outcomes.names) == 20 + 5 * len(layout)
-    own = [f"resistance_error.{wheel}" for wheel in layout.names]
-    places = [outcomes.names.index(each) for each in own]
-    assert np.unique(outcomes.values[:, places]).size == 2 * len(layout)
+    errors = [f"resistance_error.{wheel}" for wheel in layout.names]
+    columns = [outcomes.names.index(error) for error in errors]
+    assert np.unique(outcomes.values[:, columns]).size == 2 * len(layout)
     assert outcomes.metric("momentum_error").max() < MOMENTUM_GATE
     outcomes.save(tmp_path / "block.npz")
     assert_same(Outcomes.load(tmp_path / "block.npz"), outcomes)
     case = read_case(write_case(case_of(campaign, outcomes, 1, 0, "hash"), tmp_path))
     (run,) = replayed(campaign, case.drawn(layout))
     assert run.metrics == metrics_of(outcomes, 1, 0)
-    found = certificate(SequentialTest(0.5), campaign, outcomes)
-    assert found.whole == outcomes.all_passed[: found.samples].sum()
+    outcome = certificate(SequentialTest(0.5), campaign, outcomes)
+    assert outcome.whole == outcomes.all_passed[: outcome.samples].sum()
 
 
-def test_no_two_robots_are_alike_nor_of_two_seeds(campaign, outcomes):
+def test_samples_and_seeds_differ(campaign, outcomes):
     other = fly_samples(replace(campaign, seed=8), [0])
     for name in ("touchdown_pitch", "touchdown_roll", "peak_wheel_speed"):
-        found = np.concatenate([each.metric(name).ravel() for each in (outcomes, other)])
-        assert np.unique(found).size == found.size
+        values = np.concatenate([either.metric(name).ravel() for either in (outcomes, other)])
+        assert np.unique(values).size == values.size
 
 
-def test_a_case_is_filed_whatever_its_maneuver_is_called_and_is_of_its_wheels(
-    campaign, outcomes, tmp_path
-):
+def test_a_case_has_a_safe_file_name_and_belongs_to_its_layout(campaign, outcomes, tmp_path):
     case = replace(case_of(campaign, outcomes, 0, 0, "hash"), scenario="../up and away")
     with pytest.raises(OcsError, match=r"has no value of incidence_error\.1, "):
         case.drawn(Layout(LayoutName.TRIAD))
@@ -115,7 +113,7 @@ def test_a_case_is_filed_whatever_its_maneuver_is_called_and_is_of_its_wheels(
     assert [path.name for path in tmp_path.iterdir()] == ["up_and_away-0.json"]
 
 
-def test_the_record_counts_what_was_flown(campaign, outcomes):
+def test_the_record_counts_the_flights(campaign, outcomes):
     record = summarised(campaign, outcomes, 10)
     assert (record.samples, record.asked, record.seed) == (6, 10, 7)
     for number, scenario in enumerate(record.scenarios):
@@ -130,11 +128,11 @@ def test_the_record_counts_what_was_flown(campaign, outcomes):
         assert scenario.stands == [verdict.stands for verdict in verdicts].count(True)
 
 
-def test_level_landings_that_fall_are_flown_again(campaign, outcomes):
-    """Two that stand are said to fall: changed a little, they still stand."""
+def test_falls_after_level_landings_are_repeated_with_remedies(campaign, outcomes):
+    """Two flights that stand are marked as falls: with the remedies they stand."""
     codes = np.zeros_like(outcomes.codes)
     codes[[2, 3], 1] = 1 + FAULTS.index(Fault.STANDING)
-    said = standing_advice(campaign, replace(outcomes, codes=codes), 1)
-    assert said.startswith("2 land level and then fall")
-    assert all(f"2 with {words}" in said for words in REMEDIES)
+    advice = standing_advice(campaign, replace(outcomes, codes=codes), 1)
+    assert advice.startswith("2 land level and then fall")
+    assert all(f"2 with {words}" in advice for words in REMEDIES)
     assert standing_advice(campaign, replace(outcomes, codes=codes), 0) == ""

@@ -1,4 +1,4 @@
-"""The sequential test's promises, summed exactly over all flights it may see."""
+"""Error probabilities of the sequential test, summed exactly over all outcomes; the reserve."""
 
 import re
 import sys
@@ -31,33 +31,33 @@ from certified import operating
 
 endings = cache(certified.endings)
 
-ASKED = (0.5, 0.8, 0.9, 0.95, 0.99, 0.999)
+RELIABILITIES = (0.5, 0.8, 0.9, 0.95, 0.99, 0.999)
 
 
-@pytest.mark.parametrize("asked", ASKED)
-def test_neither_wrong_verdict_is_likelier_than_it_says(asked):
-    test = SequentialTest(asked)
+@pytest.mark.parametrize("specified", RELIABILITIES)
+def test_wrong_verdicts_are_within_the_error_probability(specified):
+    test = SequentialTest(specified)
     ends = endings(test)
-    for reliability in (0.3, asked, 0.5 * (1.0 + asked)):
+    for reliability in (0.3, specified, 0.5 * (1.0 + specified)):
         assert sum(operating(ends, reliability)[0].values()) == pytest.approx(1.0, abs=1e-9)
-    for better in (asked, 0.5 * (1 + asked)):
+    for better in (specified, 0.5 * (1 + specified)):
         assert operating(ends, better)[0][Conclusion.SHORT] <= ERROR
     for worse in (test.worse, 0.9 * test.worse):
         assert operating(ends, worse)[0][Conclusion.CERTIFIED] <= ERROR
 
 
-@pytest.mark.parametrize("asked", ASKED)
-def test_a_good_device_is_certified_and_a_bad_one_is_not(asked):
-    test = SequentialTest(asked)
+@pytest.mark.parametrize("specified", RELIABILITIES)
+def test_a_good_device_is_certified_and_a_bad_one_is_not(specified):
+    test = SequentialTest(specified)
     ends = endings(test)
-    findings, flown = operating(ends, 1 - 0.1 * (1 - asked))
-    assert findings[Conclusion.CERTIFIED] >= 0.999
+    verdicts, flights = operating(ends, 1 - 0.1 * (1 - specified))
+    assert verdicts[Conclusion.CERTIFIED] >= 0.999
     first = test.found(np.ones(test.most, dtype=bool))[1]
-    assert flown <= 1.15 * first
+    assert flights <= 1.15 * first
     assert operating(ends, 0.5 * test.worse)[0][Conclusion.SHORT] >= 0.9
 
 
-def test_99_of_100_take_152_flights_and_settle_most_questions():
+def test_99_percent_take_152_flights_and_are_rarely_undecided():
     """ln 20 / ln(0.99 / 0.970588) = 151.3."""
     test = SequentialTest(0.99)
     assert test.worse == pytest.approx(0.970588, abs=1e-6)
@@ -67,26 +67,26 @@ def test_99_of_100_take_152_flights_and_settle_most_questions():
     assert test.found(np.zeros(400, dtype=bool)) == (Conclusion.SHORT, 3)
     halfway = operating(endings(test), 0.5 * (test.asked + test.worse))[0]
     assert halfway[Conclusion.UNDECIDED] < 0.1
-    for asked, flights in ((0.95, 32), (0.8, 9)):
-        found = SequentialTest(asked).found(np.ones(64, dtype=bool))
-        assert found == (Conclusion.CERTIFIED, flights)
+    for reliability, flights in ((0.95, 32), (0.8, 9)):
+        verdict = SequentialTest(reliability).found(np.ones(64, dtype=bool))
+        assert verdict == (Conclusion.CERTIFIED, flights)
 
 
-@pytest.mark.parametrize("asked", [0.8, 0.95, 0.99])
-def test_the_interval_holds_the_truth_nearly_as_often_as_of_a_fixed_number(asked):
-    """Stopping by the result costs some: docs/monte_carlo.md says how much."""
-    ends = endings(SequentialTest(asked))
-    intervals = [share(passed, flown) for passed, flown, *_ in ends]
-    for truth in 1 - np.geomspace(1e-3 * (1 - asked), 0.98, 40):
-        held = [
+@pytest.mark.parametrize("specified", [0.8, 0.95, 0.99])
+def test_coverage_of_the_interval_is_nearly_that_of_a_fixed_number(specified):
+    """Sequential stopping reduces the coverage, see docs/monte_carlo.md."""
+    ends = endings(SequentialTest(specified))
+    intervals = [share(passed, flights) for passed, flights, *_ in ends]
+    for truth in 1 - np.geomspace(1e-3 * (1 - specified), 0.98, 40):
+        covering = [
             end
-            for end, found in zip(ends, intervals, strict=True)
-            if found.low <= truth <= found.high
+            for end, interval in zip(ends, intervals, strict=True)
+            if interval.low <= truth <= interval.high
         ]
-        assert sum(operating(held, truth)[0].values()) >= 0.89
+        assert sum(operating(covering, truth)[0].values()) >= 0.89
 
 
-def test_it_gives_up_in_the_end():
+def test_it_ends_undecided_after_the_maximum():
     test = SequentialTest(0.9)
     passed = np.arange(2 * test.most) % 6 != 5
     assert test.found(passed) == (Conclusion.UNDECIDED, test.most)
@@ -101,32 +101,32 @@ def test_flights_after_the_verdict_are_not_counted(campaign):
     outcomes = synthetic_outcomes(range(64))
     outcomes.codes[:] = 0
     outcomes.codes[[3, 4, 5, 6, 40]] = 3
-    found = certificate(SequentialTest(0.9), campaign, outcomes)
-    assert (found.verdict, found.samples, found.whole) == ("falls short", 7, 3)
-    assert found.passed == {"drop": 3}
+    outcome = certificate(SequentialTest(0.9), campaign, outcomes)
+    assert (outcome.verdict, outcome.samples, outcome.whole) == ("falls short", 7, 3)
+    assert outcome.passed == {"drop": 3}
     exact = stats.binomtest(3, 7).proportion_ci(0.95, method="exact")
-    assert found.interval["drop"] == pytest.approx((exact.low, exact.high))
-    assert found.whole_interval == found.interval["drop"]
+    assert outcome.interval["drop"] == pytest.approx((exact.low, exact.high))
+    assert outcome.whole_interval == outcome.interval["drop"]
 
 
 @pytest.mark.parametrize("spread", [0.04, 0.05])
-def test_the_reserve_is_raised_by_what_the_tilt_lacks(campaign, spread):
-    """99 of 100 are within 2.576 deviations; 5 deg are allowed."""
+def test_the_reserve_is_raised_by_the_excess_of_the_tilt(campaign, spread):
+    """99 % are within 2.576 standard deviations; 5 deg are allowed."""
     outcomes = synthetic_outcomes(range(400))
-    drawn = NAMES.index("com_error.y")
-    tilt = spread * (0.9 * outcomes.values[:, drawn] + np.sqrt(0.19) * outcomes.values[:, 3])
+    column = NAMES.index("com_error.y")
+    tilt = spread * (0.9 * outcomes.values[:, column] + np.sqrt(0.19) * outcomes.values[:, 3])
     outcomes.metrics[:, 0, METRICS.index("touchdown_pitch")] = 0.0
     outcomes.metrics[:, 0, METRICS.index("touchdown_roll")] = tilt
-    learnt = lesson(SequentialTest(0.99), campaign, outcomes)
-    assert learnt.factor == pytest.approx(min(2.576 * spread / np.radians(5.0), LARGEST), rel=0.1)
-    assert "off level in roll" in learnt.observation
+    result = lesson(SequentialTest(0.99), campaign, outcomes)
+    assert result.factor == pytest.approx(min(2.576 * spread / np.radians(5.0), LARGEST), rel=0.1)
+    assert "off level in roll" in result.observation
     assert re.search(
-        r"; 99% stay within \d+\.\d deg \(5 deg is allowed\), and \d+% of the", learnt.observation
+        r"; 99% stay within \d+\.\d deg \(5 deg is allowed\), and \d+% of the", result.observation
     )
-    assert learnt.observation.endswith(
-        f": the reserve is raised by a factor of {learnt.factor:.2f}"
+    assert result.observation.endswith(
+        f": the reserve is raised by a factor of {result.factor:.2f}"
     )
-    assert "com error y" in learnt.observation
+    assert "com error y" in result.observation
 
 
 @pytest.mark.parametrize(
@@ -142,34 +142,34 @@ def test_no_reserve_is_raised_where_it_does_not_help(solo12, metric, cause, word
     device = layout_device(Layout(LayoutName.SINGLE))
     campaign = short_campaign(solo12, device=device, drop_only=True)
     outcomes = synthetic_outcomes(range(64))
-    drawn = 0.1 * outcomes.values[:, NAMES.index(cause)]
+    metric_values = 0.1 * outcomes.values[:, NAMES.index(cause)]
     outcomes.metrics[:] = 0.0
-    outcomes.metrics[:, 0, METRICS.index(metric)] = drawn
-    learnt = lesson(SequentialTest(0.99), campaign, outcomes)
-    assert learnt.factor == 1.0
-    assert words in learnt.observation
+    outcomes.metrics[:, 0, METRICS.index(metric)] = metric_values
+    result = lesson(SequentialTest(0.99), campaign, outcomes)
+    assert result.factor == 1.0
+    assert words in result.observation
 
 
-@pytest.mark.parametrize(("asked", "free"), [({"pitch": np.pi}, 0.0), ({"roll": np.pi / 2}, 1.0)])
-def test_what_ends_upside_down_or_on_its_side_teaches_by_where_the_vertical_is(
-    campaign, asked, free
-):
-    """Pitch jumps by a turn upside down, and is any angle on the side."""
+@pytest.mark.parametrize(
+    ("attitude", "free"), [({"pitch": np.pi}, 0.0), ({"roll": np.pi / 2}, 1.0)]
+)
+def test_ends_upside_down_or_on_the_side_are_judged_by_the_vertical(campaign, attitude, free):
+    """Upside down pitch jumps by a turn, and on the side it is arbitrary."""
     (flight,) = campaign.flights
-    turn = TurnTo(name="turn", duration=1.0, jump_height=0.5, **asked)
+    turn = TurnTo(name="turn", duration=1.0, jump_height=0.5, **attitude)
     campaign = replace(campaign, flights=(replace(flight, maneuver=turn),))
     outcomes = synthetic_outcomes(range(64))
-    off = 0.02 * outcomes.values[:, 0]
-    roll, pitch = asked.get("roll", 0.0) + off, asked.get("pitch", 0.0) + off
+    error = 0.02 * outcomes.values[:, 0]
+    roll, pitch = attitude.get("roll", 0.0) + error, attitude.get("pitch", 0.0) + error
     pitch = np.where(np.arange(64) % 2, pitch, -pitch) if not free else free * outcomes.values[:, 1]
     for name, angle in (("roll", roll), ("pitch", pitch)):
         outcomes.metrics[:, 0, METRICS.index(f"touchdown_{name}")] = angle
-    learnt = lesson(SequentialTest(0.99), campaign, outcomes)
-    assert learnt.observation.startswith("every touchdown is level"), learnt.observation
+    result = lesson(SequentialTest(0.99), campaign, outcomes)
+    assert result.observation.startswith("every touchdown is level"), result.observation
 
 
 @pytest.mark.parametrize("change", ["one lands", "nothing varies"])
-def test_landings_that_are_all_alike_teach_nothing_of_the_reserve(campaign, change):
+def test_equal_landings_do_not_change_the_reserve(campaign, change):
     outcomes = synthetic_outcomes(range(8))
     tilt = outcomes.metrics[:, 0, METRICS.index("touchdown_pitch")]
     tilt[:] = 0.3
@@ -177,18 +177,18 @@ def test_landings_that_are_all_alike_teach_nothing_of_the_reserve(campaign, chan
         tilt[1:] = np.nan
     else:
         outcomes.values[:] = 1.0
-    learnt = lesson(SequentialTest(0.9), campaign, outcomes)
-    assert learnt.factor == 1.0
-    assert "land off level in pitch, all alike" in learnt.observation
+    result = lesson(SequentialTest(0.9), campaign, outcomes)
+    assert result.factor == 1.0
+    assert "land off level in pitch, all alike" in result.observation
 
 
 @pytest.mark.exhaustive  # Minutes of flights.
-def test_what_the_docs_quote_is_what_flies():
-    """Single flights may end otherwise on another machine: intervals overlap, the verdict stays."""
-    quoted = certified.kept()["solo12"]
-    flown = certified.flown(Path(SOLO12))
-    assert flown["verdict"] == quoted["verdict"]
-    for scenario, (low, high) in flown["interval"].items():
-        assert low <= quoted["interval"][scenario][1]
-        assert quoted["interval"][scenario][0] <= high
-    assert flown["mass"] == pytest.approx(quoted["mass"], rel=1e-3)
+def test_the_certificate_in_the_docs_is_reproduced():
+    """Single flights may differ on another machine: the intervals overlap, the verdict stays."""
+    documented = certified.kept()["solo12"]
+    certified_now = certified.flown(Path(SOLO12))
+    assert certified_now["verdict"] == documented["verdict"]
+    for scenario, (low, high) in certified_now["interval"].items():
+        assert low <= documented["interval"][scenario][1]
+        assert documented["interval"][scenario][0] <= high
+    assert certified_now["mass"] == pytest.approx(documented["mass"], rel=1e-3)

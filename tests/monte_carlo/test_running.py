@@ -1,4 +1,4 @@
-"""Blocks come in any order, from anybody, in several goes: what is counted stays the same."""
+"""Results do not depend on the order of blocks, on workers, or on interruptions."""
 
 import csv
 import os
@@ -33,8 +33,8 @@ IDENTITY = Identity(
 )
 
 
-class Made:
-    """Fly nothing; `order` is that in which blocks arrive, `most` after which all is cut short."""
+class MadeUpFlights:
+    """Made-up outcomes; blocks arrive in steps of `order`, and after `most` comes an interrupt."""
 
     def __init__(self, order=1, most=1000):
         self.flown, self._order, self._most = [], order, most
@@ -49,53 +49,53 @@ class Made:
 
 
 def test_the_order_of_arrival_does_not_matter():
-    whole = run_campaign(None, BLOCKS, fly=Made())
-    assert_same(whole, run_campaign(None, BLOCKS, fly=Made(-1)))
-    assert whole.index.tolist() == list(range(100))
+    all_blocks = run_campaign(None, BLOCKS, fly=MadeUpFlights())
+    assert_same(all_blocks, run_campaign(None, BLOCKS, fly=MadeUpFlights(-1)))
+    assert all_blocks.index.tolist() == list(range(100))
 
 
-def test_it_stops_when_enough_is_known_at_the_same_sample_whoever_was_faster():
-    forward, backward = Made(), Made(-1)
-    found = run_campaign(None, BLOCKS, fly=forward, enough=narrow(0.3))
-    assert len(found.index) == 8 * len(forward.flown) < 100
-    assert_same(found, run_campaign(None, BLOCKS, fly=backward, enough=narrow(0.3)))
+def test_early_stopping_does_not_depend_on_the_order_of_arrival():
+    forward, backward = MadeUpFlights(), MadeUpFlights(-1)
+    outcomes = run_campaign(None, BLOCKS, fly=forward, enough=narrow(0.3))
+    assert len(outcomes.index) == 8 * len(forward.flown) < 100
+    assert_same(outcomes, run_campaign(None, BLOCKS, fly=backward, enough=narrow(0.3)))
 
 
 @pytest.fixture
 def stored(tmp_path):
-    """Opens the folder of the campaign's samples."""
+    """A function that opens the folder of the campaign's samples."""
     return lambda: Storage(tmp_path / "mc", IDENTITY, force=False)
 
 
-def test_a_run_that_was_cut_short_goes_on(stored):
+def test_an_interrupted_run_is_resumed(stored):
     with pytest.raises(KeyboardInterrupt):
-        run_campaign(None, BLOCKS, fly=Made(most=5), storage=stored())
-    told, rest = [], Made()
-    again = run_campaign(None, BLOCKS, fly=rest, storage=stored(), progress=told.append)
+        run_campaign(None, BLOCKS, fly=MadeUpFlights(most=5), storage=stored())
+    progress, rest = [], MadeUpFlights()
+    resumed = run_campaign(None, BLOCKS, fly=rest, storage=stored(), progress=progress.append)
     assert rest.flown == list(BLOCKS[5:])
-    assert_same(again, run_campaign(None, BLOCKS, fly=Made()))
-    assert told == sorted(told)
-    assert told[0] > 5 / len(BLOCKS)
-    assert told[-1] == pytest.approx(1.0)
+    assert_same(resumed, run_campaign(None, BLOCKS, fly=MadeUpFlights()))
+    assert progress == sorted(progress)
+    assert progress[0] > 5 / len(BLOCKS)
+    assert progress[-1] == pytest.approx(1.0)
 
 
-def test_more_samples_of_the_same_campaign_need_only_those(stored):
-    run_campaign(None, BLOCKS, fly=Made(), storage=stored())
-    more = Made()
+def test_more_samples_of_a_campaign_fly_only_the_new_ones(stored):
+    run_campaign(None, BLOCKS, fly=MadeUpFlights(), storage=stored())
+    more = MadeUpFlights()
     run_campaign(None, blocks_of(120, 8), fly=more, storage=stored())
-    # The last block was not full.
+    # The last block was incomplete.
     assert [block.start for block in more.flown] == [96, 104, 112]
 
 
-@pytest.mark.parametrize("spoil", [lambda text: b"", lambda text: text[: len(text) // 2]])
-def test_a_spoilt_block_is_flown_again(tmp_path, stored, spoil):
+@pytest.mark.parametrize("corrupt", [lambda text: b"", lambda text: text[: len(text) // 2]])
+def test_a_corrupt_block_is_flown_again(tmp_path, stored, corrupt):
     storage = stored()
-    run_campaign(None, BLOCKS, fly=Made(), storage=storage)
+    run_campaign(None, BLOCKS, fly=MadeUpFlights(), storage=storage)
     path = sorted((tmp_path / "mc" / "samples").iterdir())[2]
-    path.write_bytes(spoil(path.read_bytes()))
-    again = Made()
-    run_campaign(None, BLOCKS, fly=again, storage=storage)
-    assert again.flown == [BLOCKS[2]]
+    path.write_bytes(corrupt(path.read_bytes()))
+    repeated = MadeUpFlights()
+    run_campaign(None, BLOCKS, fly=repeated, storage=storage)
+    assert repeated.flown == [BLOCKS[2]]
 
 
 def test_another_campaign_is_not_mixed_in(tmp_path, stored):
@@ -103,11 +103,11 @@ def test_another_campaign_is_not_mixed_in(tmp_path, stored):
     other = replace(IDENTITY, seed=1)
     with pytest.raises(OutputError, match="these differ: seed"):
         Storage(tmp_path / "mc", other, force=False)
-    anew = Storage(tmp_path / "mc", other, force=True)
-    assert not anew.found(BLOCKS)
+    replaced = Storage(tmp_path / "mc", other, force=True)
+    assert not replaced.found(BLOCKS)
 
 
-def test_a_folder_of_something_else_is_left_alone(tmp_path):
+def test_a_foreign_folder_is_left_alone(tmp_path):
     (tmp_path / "thesis.tex").write_text("years of work")
     with pytest.raises(OutputError, match="holds no samples"):
         Storage(tmp_path, IDENTITY, force=True)
@@ -126,14 +126,16 @@ def test_csv_and_parquet_hold_the_same_rows(tmp_path):
     assert len(rows) == len(table) == 40
     assert [row["scenario"] for row in rows[:2]] == ["a drop, tilted", "flip"]
     assert rows[0]["touchdown_time"] == ""
-    for one, other in zip(rows, table, strict=True):
-        assert int(one["sample"]) == other["sample"]
-        assert one["verdict"] == other["verdict"]
-        np.testing.assert_allclose(float(one["com_error.x"]), other["com_error.x"], rtol=1e-5)
-        assert other["mass_error"] == other["touchdown_pitch"]
+    for csv_row, parquet_row in zip(rows, table, strict=True):
+        assert int(csv_row["sample"]) == parquet_row["sample"]
+        assert csv_row["verdict"] == parquet_row["verdict"]
+        np.testing.assert_allclose(
+            float(csv_row["com_error.x"]), parquet_row["com_error.x"], rtol=1e-5
+        )
+        assert parquet_row["mass_error"] == parquet_row["touchdown_pitch"]
 
 
-def test_without_a_scheduler_or_dask_the_cure_is_named(monkeypatch):
+def test_a_missing_scheduler_or_dask_is_an_error_with_a_hint(monkeypatch):
     monkeypatch.setattr("ocs_design.monte_carlo.running.PATIENCE", 0.2)
     with pytest.raises(OcsError, match="no Dask scheduler answers") as error:
         Cluster("tcp://127.0.0.1:1")
@@ -154,7 +156,7 @@ def two_workers():
 
 
 def kill_one(cluster, flown, killed):
-    """As soon as the first block has arrived."""
+    """Kill a worker as soon as the first block has arrived."""
     while not flown:
         time.sleep(0.01)
     victim = next(iter(cluster.workers.values()))
@@ -163,14 +165,14 @@ def kill_one(cluster, flown, killed):
 
 
 @pytest.mark.slow
-def test_a_lost_worker_loses_nothing(solo12, two_workers):
+def test_a_lost_worker_does_not_change_the_results(solo12, two_workers):
     campaign = short_campaign(solo12, drop_only=True, until=0.45)
     blocks, flown, killed = blocks_of(24, 2), [], []
     killer = threading.Thread(target=kill_one, args=(two_workers, flown, killed))
     killer.start()
     with closing(Cluster(two_workers.scheduler_address)) as cluster:
-        found = run_campaign(campaign, blocks, fly=cluster.fly, progress=flown.append)
+        outcomes = run_campaign(campaign, blocks, fly=cluster.fly, progress=flown.append)
     killer.join()
     assert killed
-    alone = fly_samples(campaign, range(24), threads=2)
-    assert_same(found, alone)
+    expected = fly_samples(campaign, range(24), threads=2)
+    assert_same(outcomes, expected)

@@ -1,4 +1,4 @@
-"""What of a design was changed by hand is refused with its key; what was designed is not."""
+"""Contradictions of a design that was edited by hand are refused with their key."""
 
 import json
 from dataclasses import replace
@@ -21,15 +21,17 @@ DATA = Path(__file__).parents[1] / "data"
 
 OUTRUNNER = MotorSection(name="Antigravity MN5008 KV400")
 FLAT = MotorSection(name=MOTOR)
-LITTLE = RequirementSection(rate_change=1.0)
+SMALL_RATE = RequirementSection(rate_change=1.0)
 KINDS = {
-    "disc": Specification(requirement=LITTLE, motor=OUTRUNNER),
+    "disc": Specification(requirement=SMALL_RATE, motor=OUTRUNNER),
     "shrunk on": Specification(motor=FLAT, flywheel=FlywheelSection(web="aluminium")),
     "spokes": Specification(motor=FLAT, flywheel=FlywheelSection(web="none")),
     "ring": Specification(motor=OUTRUNNER, ocs=OcsSection(wheel="ring")),
-    "gear": Specification(requirement=LITTLE, motor=replace(FLAT, gear="PLE040 3")),
+    "gear": Specification(requirement=SMALL_RATE, motor=replace(FLAT, gear="PLE040 3")),
     "guard": Specification(motor=FLAT, ocs=OcsSection(guard="containing")),
-    "leaning": Specification(requirement=LITTLE, motor=FLAT, ocs=OcsSection(layout="orthogonal")),
+    "tilted": Specification(
+        requirement=SMALL_RATE, motor=FLAT, ocs=OcsSection(layout="orthogonal")
+    ),
     "four wheels": Specification(motor=FLAT, ocs=OcsSection(layout="double-pair")),
     "no motor": Specification(motor=MotorSection(name="none")),
 }
@@ -37,21 +39,21 @@ KINDS = {
 
 @cache
 def written(kind):
-    task, made = design_of(KINDS[kind])
-    return to_json(record_of(task, made))
+    task, sizing = design_of(KINDS[kind])
+    return to_json(record_of(task, sizing))
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
-def test_what_was_designed_agrees_with_itself(kind, tmp_path):
+def test_a_design_agrees_with_itself(kind, tmp_path):
     (tmp_path / "design.json").write_bytes(written(kind))
     design, device = read_designed(tmp_path)
     assert device.mass == design.ocs.mass_total
 
 
 @pytest.mark.parametrize("name", ["design_0_1_0", "design_1"])
-def test_what_older_versions_wrote_is_read(name, tmp_path):
-    """Also once it was exported again, as a document of this schema."""
+def test_designs_of_older_versions_are_read(name, tmp_path):
+    """Also after an export, which writes a document of this schema."""
     export_design(DATA / f"{name}.json", "bom", out=tmp_path / "again")
     read_designed(tmp_path / "again")
 
@@ -64,7 +66,7 @@ def edited(folder, key, value, kind="disc"):
 
 
 @pytest.mark.parametrize(
-    ("key", "value", "said"),
+    ("key", "value", "message"),
     [
         ("ocs.flywheel.outer_radius", 0.06, r"ocs\.flywheel\.mass is .* g, but its dimensions"),
         ("ocs.flywheel.height", lambda mm: 1e3 * mm, r"ocs\.flywheel\.mass is"),
@@ -89,22 +91,22 @@ def edited(folder, key, value, kind="disc"):
         ("supply.voltage", 48.0, r"supply\.voltage is 48 V, but selection\.bus_voltage is"),
     ],
 )
-def test_what_contradicts_the_rest_is_refused_with_its_key(key, value, said, tmp_path):
-    with pytest.raises(OcsError, match=rf"design\.json: .*{said}") as refused:
+def test_a_contradiction_is_refused_with_its_key(key, value, message, tmp_path):
+    with pytest.raises(OcsError, match=rf"design\.json: .*{message}") as refused:
         read_designed(edited(tmp_path, key, value))
     assert refused.value.exit_code == 3
     assert "size" in refused.value.hint
 
 
-def test_a_wheel_without_a_motor_is_weighed_too(tmp_path):
+def test_a_wheel_without_a_motor_is_checked_too(tmp_path):
     with pytest.raises(OcsError, match=r"ocs\.flywheel\.mass is"):
         read_designed(edited(tmp_path, "ocs.flywheel.inner_radius", 0.02, "no motor"))
 
 
 @pytest.mark.parametrize("command", ["export", "validate"])
-def test_commands_refuse_it_before_anything_is_made(command, tmp_path):
-    said = run(command, edited(tmp_path, "ocs.mass_total", 5.0), "-o", tmp_path / "out")
-    assert said.code == 3
-    assert "ocs.mass_total is 5000 g" in said.output
-    assert "change the specification" in said.output
+def test_commands_refuse_a_contradiction_before_writing(command, tmp_path):
+    result = run(command, edited(tmp_path, "ocs.mass_total", 5.0), "-o", tmp_path / "out")
+    assert result.code == 3
+    assert "ocs.mass_total is 5000 g" in result.output
+    assert "change the specification" in result.output
     assert not (tmp_path / "out").exists()

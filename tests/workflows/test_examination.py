@@ -1,4 +1,4 @@
-"""`doctor`: the machine and what works on it."""
+"""`doctor`: findings about the machine and the installation."""
 
 import json
 from dataclasses import replace
@@ -41,7 +41,7 @@ def finding(state, *, required):
         (State.BROKEN, True, 5),
     ],
 )
-def test_only_what_is_required_stands_in_the_way(state, required, code):
+def test_only_required_findings_affect_the_exit_code(state, required, code):
     examination = Examination("1.0", (), (finding(state, required=required),))
     assert examination.exit_code == code
     document = json.loads(examination_to_json(examination))
@@ -49,13 +49,13 @@ def test_only_what_is_required_stands_in_the_way(state, required, code):
     assert document["packages"][0]["state"] == state.value
 
 
-def test_it_needs_nothing_of_what_it_looks_for():
+def test_doctor_imports_no_optional_packages():
     assert modules_loaded_by("import ocs_design.workflows.doctor").isdisjoint(
         {*HEAVY, "msgspec", "rich"}
     )
 
 
-def test_run_from_its_source_alone_it_says_so(monkeypatch):
+def test_a_source_tree_without_installation_is_reported(monkeypatch):
     def missing(name):
         raise metadata.PackageNotFoundError(name)
 
@@ -65,16 +65,17 @@ def test_run_from_its_source_alone_it_says_so(monkeypatch):
 
 
 @pytest.mark.slow
-def test_here_everything_required_works():
-    done = run("doctor", "--json")
-    assert done.code == 0
-    found = {each["name"]: each for each in done.document["machine"] + done.document["packages"]}
-    assert found["mujoco"]["state"] == "works"
-    assert found["mujoco"]["found"] == metadata.version("mujoco")
-    assert {"Python", "this folder", "ffmpeg", "resvg-py"} <= set(found)
+def test_everything_required_works_here():
+    result = run("doctor", "--json")
+    assert result.code == 0
+    listed = result.document["machine"] + result.document["packages"]
+    findings = {finding["name"]: finding for finding in listed}
+    assert findings["mujoco"]["state"] == "works"
+    assert findings["mujoco"]["found"] == metadata.version("mujoco")
+    assert {"Python", "this folder", "ffmpeg", "resvg-py"} <= set(findings)
 
 
-def test_what_is_only_optional_is_not_to_be_mended():
+def test_optional_packages_are_additions_not_fixes():
     lacking = [
         replace(finding(state, required=required), name=name, cure=f"get {name}", extra=extra)
         for name, state, required, extra in (
@@ -86,30 +87,30 @@ def test_what_is_only_optional_is_not_to_be_mended():
     ]
     console = Console(file=StringIO(), width=80)
     print_examination(console, Examination("1.0", (), tuple(lacking)))
-    said = console.file.getvalue()
-    mend, add = said.split("To fix")[1].split("To add")
-    assert "get needed" in mend and "get torn" in mend
-    assert "get extra" in add and "get extra" not in mend
-    assert f"all of these: {extra_command('one', 'two')}" in add
+    text = console.file.getvalue()
+    fixes, additions = text.split("To fix")[1].split("To add")
+    assert "get needed" in fixes and "get torn" in fixes
+    assert "get extra" in additions and "get extra" not in fixes
+    assert f"all of these: {extra_command('one', 'two')}" in additions
 
 
-def test_this_python_does():
+def test_this_python_is_accepted():
     assert python().state is State.WORKS
     assert python().wanted == ">=3.11"
 
 
-def test_a_folder_that_can_be_written_to_stays_as_it_was(tmp_path):
-    found = working_folder(tmp_path)
-    assert found.state is State.WORKS
-    assert found.found.endswith("GB free")
+def test_a_writable_folder_stays_unchanged(tmp_path):
+    folder = working_folder(tmp_path)
+    assert folder.state is State.WORKS
+    assert folder.found.endswith("GB free")
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_folder_that_cannot(tmp_path):
-    found = working_folder(tmp_path / "none")
-    assert found.is_blocking
-    assert found.cure
-    assert "No such file" in found.reason
+def test_a_missing_folder_is_reported(tmp_path):
+    folder = working_folder(tmp_path / "none")
+    assert folder.is_blocking
+    assert folder.cure
+    assert "No such file" in folder.reason
 
 
 def test_processors_are_counted():
@@ -124,7 +125,7 @@ def test_processors_are_counted():
         (None, State.MISSING, ""),
     ],
 )
-def test_the_film_maker(script, state, found, tmp_path, monkeypatch):
+def test_the_video_encoder(script, state, found, tmp_path, monkeypatch):
     if script is not None:
         program = tmp_path / "ffmpeg"
         program.write_text(f"#!/bin/sh\n{script}\n")
@@ -135,7 +136,7 @@ def test_the_film_maker(script, state, found, tmp_path, monkeypatch):
     assert bool(film_maker().cure) == (state is State.MISSING)
 
 
-def test_where_no_way_draws_the_reason_and_the_cure_are_told(monkeypatch):
+def test_missing_opengl_has_reason_and_cure(monkeypatch):
     monkeypatch.setenv("MUJOCO_GL", "none such")
     (only,) = opengl()
     assert only.state is State.MISSING

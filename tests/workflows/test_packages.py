@@ -1,4 +1,4 @@
-"""Packages that are asked for are found, in a version that is allowed, and can be imported."""
+"""Findings about packages: present, in an allowed version, and importable."""
 
 import tomllib
 from pathlib import Path
@@ -29,8 +29,8 @@ Requires-Dist: pytest; extra == "dev"
 
 
 @pytest.fixture(scope="module")
-def found(tmp_path_factory):
-    """Findings about a distribution of our own making, a package of which cannot be imported."""
+def findings(tmp_path_factory):
+    """Findings about a made-up distribution, one package of which cannot be imported."""
     folder = tmp_path_factory.mktemp("trial")
     broken = "Metadata-Version: 2.4\nName: broken-one\nVersion: 3\n"
     for name, text in (("ocs_trial", METADATA), ("broken_one", broken)):
@@ -41,11 +41,11 @@ def found(tmp_path_factory):
         patch.syspath_prepend(folder)
         patch.setenv("PYTHONPATH", str(folder))
         patch.setattr(doctor, "DISTRIBUTION", "ocs-trial")
-        return {each.name: each for each in package_findings(doctor.wanted_packages())}
+        return {finding.name: finding for finding in package_findings(doctor.wanted_packages())}
 
 
-def test_those_for_developers_are_left_out(found):
-    assert set(found) == {"rich", "typer", "broken-one", "no-such-package", "film-maker"}
+def test_packages_for_developers_are_left_out(findings):
+    assert set(findings) == {"rich", "typer", "broken-one", "no-such-package", "film-maker"}
 
 
 @pytest.mark.parametrize(
@@ -64,14 +64,14 @@ def test_those_for_developers_are_left_out(found):
         ("film-maker", State.MISSING, "pip install 'ocs-trial[film]'", "", False),
     ],
 )
-def test_what_is_found_of_a_package(found, name, state, cure, reason, in_the_way):
-    """An extra is not required, and its cure names it."""
-    package = found[name]
+def test_the_finding_about_a_package(findings, name, state, cure, reason, in_the_way):
+    """Packages of an extra are not required, and their cure names the extra."""
+    package = findings[name]
     assert (package.state, package.cure, package.reason) == (state, cure, reason)
     assert package.is_blocking is in_the_way
 
 
-def test_a_module_that_ends_the_process_is_only_told(tmp_path, monkeypatch):
+def test_a_module_that_ends_the_process_is_reported(tmp_path, monkeypatch):
     (tmp_path / "deadly.py").write_text("import os\nprint('[not ours', flush=True)\nos._exit(7)")
     (tmp_path / "quiet.py").write_text("print('hello')")
     monkeypatch.setenv("PYTHONPATH", str(tmp_path))
@@ -79,14 +79,14 @@ def test_a_module_that_ends_the_process_is_only_told(tmp_path, monkeypatch):
     assert failures == dict.fromkeys(("deadly", "json"), "the process ended with code 7")
 
 
-def test_a_module_that_hangs_is_only_told(tmp_path, monkeypatch):
+def test_a_module_that_hangs_is_reported(tmp_path, monkeypatch):
     (tmp_path / "slow_one.py").write_text("import time\ntime.sleep(60)")
     monkeypatch.setenv("PYTHONPATH", str(tmp_path))
     monkeypatch.setattr(doctor, "TIME_LIMIT", 1.0)
     assert import_failures(["json", "slow_one"]) == {"slow_one": "not done within 1 s"}
 
 
-def test_every_package_that_users_may_want_has_its_purpose():
+def test_every_user_package_has_a_purpose():
     lines = [*PROJECT["dependencies"]]
     for extra, requirements in PROJECT["optional-dependencies"].items():
         lines += [] if extra in DEVELOPMENT else requirements

@@ -1,4 +1,4 @@
-"""Points of a front: where they lie, what each is, and what becomes of those without a device."""
+"""Points of a front: their values, devices, and reasons where there is none."""
 
 from dataclasses import replace
 
@@ -19,7 +19,7 @@ def task():
 
 
 @pytest.mark.parametrize("name", SWEEPS)
-def test_the_own_value_is_one_of_nine(task, name):
+def test_the_specified_value_is_one_of_nine(task, name):
     sweep = SWEEPS[name]
     values = sweep.values(task, low=None, high=None, points=9)
     own = sweep.own(task)
@@ -27,7 +27,7 @@ def test_the_own_value_is_one_of_nine(task, name):
     assert values[0] < own < values[-1]
 
 
-def test_values_as_stated(task):
+def test_specified_values(task):
     values = SWEEPS["time"].values(task, low="300ms", high="0.5", points=3)
     assert values == pytest.approx((0.3, 0.4, 0.5))
 
@@ -50,13 +50,13 @@ def test_one_end_may_be_left_to_its_default(task):
         ({"points": 201}, UsageError, "between 2 and 200"),
     ],
 )
-def test_values_that_make_no_front(task, values, error, message):
-    wanted = {"low": None, "high": None, "points": 9, **values}
+def test_impossible_values_are_refused(task, values, error, message):
+    arguments = {"low": None, "high": None, "points": 9, **values}
     with pytest.raises(error, match=message):
-        SWEEPS["radius"].values(task, **wanted)
+        SWEEPS["radius"].values(task, **arguments)
 
 
-def test_a_point_without_a_device_says_why_and_the_others_stand(task):
+def test_a_point_without_a_device_has_a_reason(task):
     front = make_front(task)
     first, second = front.points[:2]
     assert first.device is None
@@ -71,38 +71,38 @@ def test_a_point_without_a_device_says_why_and_the_others_stand(task):
 
 
 def test_a_value_that_contradicts_the_robot_is_a_point_without_a_device(task):
-    """Room for the rim below its bore: no specification of its own could be so."""
+    """An outer radius below the bore, which a specification alone would not allow."""
     front = make_front(task, "radius", low="2mm", high="50mm", points=2)
     assert "leaves no room" in front.points[0].reason
     assert front.points[1].device is not None
 
 
-def test_motors_above_their_rating_are_told_once_a_voltage(task):
-    """As `size` tells it; a front against the voltage said nothing."""
+def test_motors_above_their_rating_have_one_remark_per_voltage(task):
+    """Once only `size` had the remark, not a front against voltage."""
 
-    def fed(varied):
+    def device_at(varied):
         volts = varied.specification.supply.voltage
-        told = f"fed with {volts:g} V" if volts > 25.2 else ""
-        return replace(made_up_device(task), overvoltage=told)
+        note = f"fed with {volts:g} V" if volts > 25.2 else ""
+        return replace(made_up_device(task), overvoltage=note)
 
-    front = draw_front(task, SWEEPS["voltage"], (12.0, 36.0, 36.0, 60.0), fed, lambda _: None)
+    front = draw_front(task, SWEEPS["voltage"], (12.0, 36.0, 36.0, 60.0), device_at, lambda _: None)
     assert front.remarks[-2:] == ("fed with 36 V", "fed with 60 V")
 
 
-def test_progress_is_told(task):
-    told = []
-    draw_front(task, SWEEPS["radius"], (0.04, 0.05), made_up_device, told.append)
-    assert told == [0.5, 1.0]
+def test_progress_is_reported(task):
+    fractions = []
+    draw_front(task, SWEEPS["radius"], (0.04, 0.05), made_up_device, fractions.append)
+    assert fractions == [0.5, 1.0]
 
 
-def test_what_is_wrong_with_the_specification_itself_is_an_error(task):
+def test_a_wrong_specification_is_an_error(task):
     robot = task.specification.robot
-    nothing = Specification(robot=robot, requirement=RequirementSection(maneuvers="none"))
+    without_maneuvers = Specification(robot=robot, requirement=RequirementSection(maneuvers="none"))
     with pytest.raises(SpecificationError, match="does not fit"):
-        read_task(nothing)
+        read_task(without_maneuvers)
 
 
-def test_other_errors_are_not_taken_for_an_answer(task):
+def test_other_errors_are_raised(task):
     def broken(task):
         raise UsageError("no")
 
@@ -110,6 +110,6 @@ def test_other_errors_are_not_taken_for_an_answer(task):
         make_front(task, choose=broken)
 
 
-def test_a_front_may_leave_the_own_value_out(task):
+def test_a_front_may_exclude_the_specified_value(task):
     assert make_front(task).spans_own_value
     assert not make_front(task, low="390ms", high="500ms").spans_own_value

@@ -1,4 +1,4 @@
-"""From live values to records: what `design.json` says of requirement, device and choice."""
+"""Records of requirement, device and selection for `design.json`."""
 
 import numpy as np
 import pytest
@@ -10,31 +10,33 @@ from ocs_design.workflows.recording import HOUSING_ASSUMED, record_selection
 
 @pytest.fixture(scope="module", params=["none", MOTOR])
 def recorded(request):
-    task, found = design_with_motor(request.param)
-    return task, found, record_of(task, found)
+    task, sizing = design_with_motor(request.param)
+    return task, sizing, record_of(task, sizing)
 
 
 def test_the_required_inertia_is_the_largest_momentum_at_the_highest_speed(recorded):
-    _, found, design = recorded
+    _, sizing, design = recorded
     requirement = design.requirement
-    roll = max(demand.momentum[0] for demand in found.sized.demands)
-    pitch = max(demand.momentum[1] for demand in found.sized.demands)
+    roll = max(demand.momentum[0] for demand in sizing.sized.demands)
+    pitch = max(demand.momentum[1] for demand in sizing.sized.demands)
     required, speed = requirement.required_inertia, requirement.wheel_speed_max
     assert required.roll * speed == pytest.approx(roll, rel=1e-12)
     assert required.pitch * speed == pytest.approx(pitch, rel=1e-12)
 
 
 def test_a_housing_is_assumed_only_where_there_is_one(recorded):
-    _, found, design = recorded
-    has_housing = found.device.carrier.mass > 0.0
+    _, sizing, design = recorded
+    has_housing = sizing.device.carrier.mass > 0.0
     assert (HOUSING_ASSUMED in design.requirement.assumptions) is has_housing
     assert (design.selection is not None) is has_housing
 
 
-def test_every_maneuver_keeps_its_own_figures(recorded):
+def test_records_of_maneuvers_have_their_parameters(recorded):
     task, _, design = recorded
     maneuvers = task.resolved.requirement.maneuvers
-    assert [record.name for record in design.requirement.maneuvers] == [m.name for m in maneuvers]
+    assert [record.name for record in design.requirement.maneuvers] == [
+        maneuver.name for maneuver in maneuvers
+    ]
     for record, maneuver in zip(design.requirement.maneuvers, maneuvers, strict=True):
         assert record.kind == type(maneuver).__name__.lower()
         assert not {"name", "gravity", "incidence"} & set(record.parameters)
@@ -42,7 +44,7 @@ def test_every_maneuver_keeps_its_own_figures(recorded):
             assert getattr(maneuver, name) == value
 
 
-def test_yaw_drifts_as_the_products_of_inertia_say(recorded):
+def test_the_heading_drift_follows_from_the_products_of_inertia(recorded):
     ocs = recorded[2].ocs
     assert ocs.heading_drift == pytest.approx(heading_drift(np.array(ocs.total_inertia)))
 
@@ -57,7 +59,7 @@ def record(chosen):
     return record_selection(chosen.choice)
 
 
-def test_the_first_is_the_device(chosen, record):
+def test_the_first_entry_is_the_device(chosen, record):
     first, device = record.ranking[0], chosen.device
     assert (first.motor, first.gear, first.gear_ratio) == (MOTOR, "direct", 1.0)
     assert first.material == device.flywheel.material
@@ -71,14 +73,14 @@ def test_the_first_is_the_device(chosen, record):
     )
 
 
-def test_what_binds_is_the_task_that_asks_for_the_most(record):
-    most = max(record.tasks, key=lambda task: task.spin_inertia)
-    assert record.binding_maneuver == most.source
-    assert most.spin_inertia == pytest.approx(record.ranking[0].spin_inertia, rel=1e-6)
-    assert most.time_needed == pytest.approx(most.time_given, rel=1e-6)
+def test_the_binding_task_has_the_largest_spin_inertia(record):
+    binding = max(record.tasks, key=lambda task: task.spin_inertia)
+    assert record.binding_maneuver == binding.source
+    assert binding.spin_inertia == pytest.approx(record.ranking[0].spin_inertia, rel=1e-6)
+    assert binding.time_needed == pytest.approx(binding.time_given, rel=1e-6)
 
 
-def test_supply_and_reserve_are_those_of_the_choice(chosen, record):
+def test_supply_and_reserve_are_those_of_the_selection(chosen, record):
     assert (record.bus_voltage, record.reserve) == (24.0, 0.95)
-    # One motor, no gear, each material whose strength is known, one incidence.
+    # One motor without gear, each material of known strength, one incidence.
     assert record.candidates == len(chosen.choice.problem.materials)

@@ -1,4 +1,4 @@
-"""From the records of a design back to what they were made from, to the last digit."""
+"""Robots, devices and maneuvers are restored from the records of a design to the last digit."""
 
 import hashlib
 import json
@@ -39,51 +39,58 @@ def through_json(record):
     return msgspec.json.decode(msgspec.json.encode(record), type=RobotRecord)
 
 
-def check_same(again, robot):
-    assert again.posture == robot.posture
-    assert (again.trunk, again.name, again.sha256) == (robot.trunk, robot.name, robot.sha256)
-    assert again.mass == robot.mass
-    beyond = [[w for w in each.warnings if w.startswith(OUTSIDE)] for each in (again, robot)]
-    assert beyond[0] == beyond[1]
-    np.testing.assert_array_equal(again.com, robot.com)
-    np.testing.assert_array_equal(again.inertia, robot.inertia)
+def check_same(restored, robot):
+    assert restored.posture == robot.posture
+    assert (restored.trunk, restored.name, restored.sha256) == (
+        robot.trunk,
+        robot.name,
+        robot.sha256,
+    )
+    assert restored.mass == robot.mass
+    ours, theirs = (
+        [text for text in either.warnings if text.startswith(OUTSIDE)]
+        for either in (restored, robot)
+    )
+    assert ours == theirs
+    np.testing.assert_array_equal(restored.com, robot.com)
+    np.testing.assert_array_equal(restored.inertia, robot.inertia)
 
 
 @pytest.mark.parametrize("path", robot_parameters([*LEGGED_PATHS, HUMAN]))
-def test_a_robot_read_again_stands_as_it_did(path):
+def test_a_restored_robot_has_the_same_posture(path):
     robot = read_robot(path)
-    again = robot_of(through_json(RobotRecord.of(robot)), path, {})
-    check_same(again, robot)
-    assert (again.mount is None) == (robot.mount is None)
+    restored = robot_of(through_json(RobotRecord.of(robot)), path, {})
+    check_same(restored, robot)
+    assert (restored.mount is None) == (robot.mount is None)
 
 
 @pytest.mark.parametrize("path", [LEGGED_PATHS[0], HUMAN])
-def test_the_seat_is_the_robots(path):
+def test_the_base_frame_is_that_of_the_robot(path):
     robot = read_robot(path)
-    seat = seat_of(through_json(RobotRecord.of(robot)))
-    assert seat.trunk == robot.trunk
+    base = seat_of(through_json(RobotRecord.of(robot)))
+    assert base.trunk == robot.trunk
     if robot.mount is None:
-        assert seat.mount is None
+        assert base.mount is None
     else:
-        assert seat.mount.link == robot.mount.link
+        assert base.mount.link == robot.mount.link
         for name in ("rotation", "position"):
-            ours, theirs = (getattr(each.mount.placement, name) for each in (seat, robot))
+            ours, theirs = (getattr(mount.placement, name) for mount in (base.mount, robot.mount))
             np.testing.assert_array_equal(ours, theirs)
 
 
-def test_joints_that_follow_others_follow_again(tmp_path):
+def test_mimic_joints_are_restored(tmp_path):
     (tmp_path / "g.urdf").write_text(MIMIC)
     robot = read_robot(tmp_path / "g.urdf", joints={"lead": 0.3})
     assert robot.posture["follow"] == pytest.approx(-0.5)
     check_same(robot_of(RobotRecord.of(robot), tmp_path / "g.urdf", {}), robot)
 
 
-def test_a_robot_by_hand_is_made_of_its_record_alone():
+def test_a_robot_by_hand_is_restored_from_its_record_alone():
     robot = robot_by_hand(2.5, (0.03, 0.05, 0.07, 1e-3, 2e-3, -3e-3), (0.01, 0.0, -0.02), "box")
     check_same(robot_of(through_json(RobotRecord.of(robot)), "nowhere", {}), robot)
 
 
-def test_a_trunk_named_by_the_user_stays_the_trunk():
+def test_a_specified_trunk_is_restored():
     path = LEGGED_PATHS[0]
     robot = read_robot(path, trunk="FL_SHOULDER")
     check_same(robot_of(RobotRecord.of(robot), path, {}), robot)
@@ -110,21 +117,21 @@ def test_a_robot_whose_included_file_has_changed_is_refused(tmp_path):
 
 
 @pytest.mark.parametrize("motor", [MOTOR, "none"])
-def test_a_device_comes_back_to_the_last_digit(tmp_path, motor):
-    task, made = design_with_motor(motor)
-    design = record_of(task, made)
+def test_a_device_is_restored_to_the_last_digit(tmp_path, motor):
+    task, sizing = design_with_motor(motor)
+    design = record_of(task, sizing)
     (tmp_path / "design.json").write_bytes(to_json(design))
-    read, device = read_design(tmp_path / "design.json"), made.device
-    again = read.ocs.device(read.supply)
+    read, device = read_design(tmp_path / "design.json"), sizing.device
+    restored = read.ocs.device(read.supply)
     for name in ("incidence", "flywheel", "motor", "carrier", "supply"):
-        assert getattr(again, name) == getattr(device, name)
-    for ours, theirs in zip(again.modules, device.modules, strict=True):
+        assert getattr(restored, name) == getattr(device, name)
+    for ours, theirs in zip(restored.modules, device.modules, strict=True):
         assert ours.name == theirs.name
         np.testing.assert_array_equal(ours.axis, theirs.axis)
         np.testing.assert_array_equal(ours.position, theirs.position)
 
 
-def test_folders_of_packages_are_kept(tmp_path):
+def test_package_paths_are_recorded(tmp_path):
     robot = read_robot(LEGGED_PATHS[0])
     record = through_json(RobotRecord.of(robot, {"parts": tmp_path}))
     assert record.package_paths == {"parts": str(tmp_path)}
@@ -134,18 +141,18 @@ def test_folders_of_packages_are_kept(tmp_path):
 DROP = {"height": 1.0, "roll": 0.0, "pitch": 0.5}
 
 
-def recorded(kind, figures):
-    return ManeuverRecord(kind=kind, name="it", gravity=9.81, incidence=None, parameters=figures)
+def recorded(kind, parameters):
+    return ManeuverRecord(kind=kind, name="it", gravity=9.81, incidence=None, parameters=parameters)
 
 
 def drop(**changes):
-    figures = (DROP | changes).items()
-    return recorded("drop", {key: value for key, value in figures if value is not None})
+    parameters = (DROP | changes).items()
+    return recorded("drop", {key: value for key, value in parameters if value is not None})
 
 
-def test_a_maneuver_comes_back():
-    found = drop().maneuver()
-    assert (found.name, found.height, found.pitch) == ("it", 1.0, 0.5)
+def test_a_maneuver_is_restored():
+    maneuver = drop().maneuver()
+    assert (maneuver.name, maneuver.height, maneuver.pitch) == ("it", 1.0, 0.5)
 
 
 @pytest.mark.parametrize(
@@ -153,30 +160,35 @@ def test_a_maneuver_comes_back():
     [{"height": None}, {"gravity": 9.81}, {"speed": 1.0}, {"pitch": (1.0, 2.0)}],
     ids=["missing", "twice", "unknown", "several"],
 )
-def test_a_maneuver_with_other_figures_is_refused(changes):
+def test_a_maneuver_with_wrong_parameters_is_refused(changes):
     with pytest.raises(OcsError, match=r"maneuver 'it': .*drop"):
         drop(**changes).maneuver()
 
 
-def test_a_row_of_the_wrong_length_is_refused():
-    figures = {"takeoff_velocity": (0.5, 2.4), "torque": (0.2, 0.8), "onset": 0.1, "duration": 0.05}
+def test_a_vector_of_the_wrong_length_is_refused():
+    parameters = {
+        "takeoff_velocity": (0.5, 2.4),
+        "torque": (0.2, 0.8),
+        "onset": 0.1,
+        "duration": 0.05,
+    }
     with pytest.raises(OcsError, match="torque of a disturbance is not"):
-        recorded("disturbance", figures).maneuver()
+        recorded("disturbance", parameters).maneuver()
 
 
-def test_a_turn_comes_back_with_the_word_for_its_end():
-    figures = {"jump_height": 1.9, "duration": 2.9, "yaw": 1.57, "rate": (0.1, 0.0, 0.0)}
-    found = recorded("turn", figures | {"end": "at rest"}).maneuver()
-    assert (found.yaw, found.rate, found.end) == (1.57, (0.1, 0.0, 0.0), "at rest")
+def test_a_turn_is_restored_with_its_end():
+    parameters = {"jump_height": 1.9, "duration": 2.9, "yaw": 1.57, "rate": (0.1, 0.0, 0.0)}
+    turn = recorded("turn", parameters | {"end": "at rest"}).maneuver()
+    assert (turn.yaw, turn.rate, turn.end) == (1.57, (0.1, 0.0, 0.0), "at rest")
     for end in ("upright", 1.0):
         with pytest.raises(OcsError, match="end of a turn is not"):
-            recorded("turn", figures | {"end": end}).maneuver()
+            recorded("turn", parameters | {"end": end}).maneuver()
     with pytest.raises(OcsError, match="yaw of a turn is not 'far'"):
-        recorded("turn", figures | {"yaw": "far"}).maneuver()
+        recorded("turn", parameters | {"yaw": "far"}).maneuver()
 
 
-def test_a_flown_design_is_known_whatever_the_order_of_its_keys():
+def test_the_hash_of_a_design_does_not_depend_on_the_order_of_keys():
     design = read_design(Path(__file__).parents[1] / "data" / "design_1.json")
     flown = msgspec.to_builtins((design.ocs, design.requirement.maneuvers, design.control))
-    same = hashlib.sha256(msgspec.json.encode(flown, order="sorted")).hexdigest()
-    assert flown_hash(design, design.control, None) == same
+    expected = hashlib.sha256(msgspec.json.encode(flown, order="sorted")).hexdigest()
+    assert flown_hash(design, design.control, None) == expected

@@ -1,4 +1,4 @@
-"""What is tried in turn, and that what was taken is told however often a device is sized anew."""
+"""Rounds of sizing: more wheels for heavy motors, and turns whose plan needs larger wheels."""
 
 from dataclasses import replace
 from math import pi
@@ -24,7 +24,7 @@ TURN = TurnTo(name="turn", jump_height=1.0, yaw=1.0, duration=1.0)
 
 
 class Reference:
-    """A turn whose plan asks for so much more."""
+    """The reference of a turn whose plan needs wheels larger by a factor."""
 
     def __init__(self, factor):
         self.factor = factor
@@ -35,36 +35,38 @@ class Reference:
 
 @pytest.fixture
 def placed():
-    task, found = design_with_motor()
+    task, sizing = design_with_motor()
     requirement = replace(task.resolved.requirement, maneuvers=(TURN,))
     resolved = replace(task.resolved, requirement=requirement, assumptions=("assumed",))
-    return Placed(task.specification, task.robot, resolved, found, None, ("near",), None)
+    return Placed(task.specification, task.robot, resolved, sizing, None, ("near",), None)
 
 
-def test_after_a_round_for_turns(placed, monkeypatch):
-    asked = []
+def test_a_turn_that_needs_larger_wheels_is_sized_again(placed, monkeypatch):
+    requests = []
 
     def size_again(_specification, _robot, *, strict, estimates):
-        asked.append(dict(estimates))
+        requests.append(dict(estimates))
         return replace(placed, estimates=estimates)
 
     plans = iter([{"turn": Reference(1.5)}, {"turn": Reference(None)}])
     monkeypatch.setattr(rounds, "references_of", lambda *_: next(plans))
     monkeypatch.setattr(rounds, "size_on_robot", size_again)
-    taken = (("Layout: four wheels.",), ("four wheels are needed",))
-    found = size_for_turns(placed.telling(taken), Steps(), strict=False)
-    assert asked == [{"turn": 1.5}]
-    assert found.estimates == {"turn": 1.5}
-    assert found.resolved.assumptions == ("Layout: four wheels.", "assumed")
-    assert found.warnings == ("four wheels are needed", "near")
+    changes = (("Layout: four wheels.",), ("four wheels are needed",))
+    final = size_for_turns(placed.telling(changes), Steps(), strict=False)
+    assert requests == [{"turn": 1.5}]
+    assert final.estimates == {"turn": 1.5}
+    assert final.resolved.assumptions == ("Layout: four wheels.", "assumed")
+    assert final.warnings == ("four wheels are needed", "near")
 
 
-def weighing(placed, asked, mass, motor):
-    """What was placed for a specification, of that mass and with motors of that mass [kg]."""
+def with_masses(placed, specification, mass, motor):
+    """The placed device for a specification, with this mass and mass of a motor [kg]."""
     device = placed.designed.device
     carrier = replace(device.carrier, mass=mass / 2.0 - device.flywheel.mass)
-    made = replace(device, carrier=carrier, motor=replace(device.motor, mass=motor))
-    return replace(placed, specification=asked, designed=replace(placed.designed, device=made))
+    changed = replace(device, carrier=carrier, motor=replace(device.motor, mass=motor))
+    return replace(
+        placed, specification=specification, designed=replace(placed.designed, device=changed)
+    )
 
 
 TWO, FOUR, SIX = None, "double-pair", "triple-pair"
@@ -72,7 +74,7 @@ AT_ALPHA, LIGHTEST = None, "lightest"
 
 
 @pytest.mark.parametrize(
-    ("motor", "weigh", "taken", "why"),
+    ("motor", "masses", "expected", "assumption"),
     [
         (0.24, {}, [(TWO, AT_ALPHA)], ""),
         (0.26, {FOUR: 4.0}, [(TWO, AT_ALPHA), (FOUR, AT_ALPHA)], ""),
@@ -103,50 +105,50 @@ AT_ALPHA, LIGHTEST = None, "lightest"
     ],
     ids=["light motors", "four are heavier", "four are lighter", "lighter at an angle", "no more"],
 )
-def test_heavy_motors_give_way_to_more_wheels_that_weigh_less(
-    placed, monkeypatch, motor, weigh, taken, why
+def test_more_wheels_replace_heavy_motors_where_they_are_lighter(
+    placed, monkeypatch, motor, masses, expected, assumption
 ):
-    """Of devices of 3 kg on a robot of 2.5 kg, whose two motors weigh 19.2 or 20.8 % of it."""
+    """Devices of 3 kg on a robot of 2.5 kg, with two motors of 19.2 or 20.8 % of its mass."""
     assert placed.robot.mass == pytest.approx(2.5)
     tried = []
 
-    def size_one(asked, _robot, *, strict):
-        key = asked.ocs.layout, asked.ocs.alpha_criterion
+    def size_one(specification, _robot, *, strict):
+        key = specification.ocs.layout, specification.ocs.alpha_criterion
         tried.append(key)
-        mass = weigh.get(key, weigh.get(key[0], 3.0))
+        mass = masses.get(key, masses.get(key[0], 3.0))
         if mass is None:
             raise NeverHeld(placed.designed.choice.chosen, 1.0)
-        return weighing(placed, asked, mass, motor)
+        return with_masses(placed, specification, mass, motor)
 
     monkeypatch.setattr(rounds, "size_on_robot", size_one)
     specified = replace(placed.specification, ocs=replace(placed.specification.ocs, layout=None))
-    found = size_or_advise(specified, placed.robot, Steps(), strict=False)
-    assert tried == taken
-    lightest = min([3.0, *(mass for mass in weigh.values() if mass)])
-    assert found.designed.device.mass == pytest.approx(lightest)
-    assert next(iter(found.resolved.assumptions)) == (why or "assumed")
+    final = size_or_advise(specified, placed.robot, Steps(), strict=False)
+    assert tried == expected
+    lightest = min([3.0, *(mass for mass in masses.values() if mass)])
+    assert final.designed.device.mass == pytest.approx(lightest)
+    assert next(iter(final.resolved.assumptions)) == (assumption or "assumed")
 
 
-def test_strict_looks_at_the_device_that_is_taken(placed, monkeypatch):
-    """The pair of 120 % of the robot gives way to four of 20 %; alone it is refused."""
+def test_strict_applies_to_the_final_device(placed, monkeypatch):
+    """Four wheels of 20 % replace a pair of 120 % of the robot, which alone is refused."""
 
-    def size_one(asked, _robot, *, strict):
+    def size_one(specification, _robot, *, strict):
         assert not strict
-        mass = 3.0 if asked.ocs.layout is TWO or not lighter else 0.5
-        return weighing(placed, asked, mass, motor=0.26)
+        mass = 3.0 if specification.ocs.layout is TWO or not lighter else 0.5
+        return with_masses(placed, specification, mass, motor=0.26)
 
     monkeypatch.setattr(rounds, "size_on_robot", size_one)
     monkeypatch.setattr(rounds, "placement_warnings", lambda *_, **__: ())
     specified = replace(placed.specification, ocs=replace(placed.specification.ocs, layout=None))
     lighter = True
-    found = size_or_advise(specified, placed.robot, Steps(), strict=True)
-    assert found.designed.device.mass == pytest.approx(0.5)
+    final = size_or_advise(specified, placed.robot, Steps(), strict=True)
+    assert final.designed.device.mass == pytest.approx(0.5)
     lighter = False
     with pytest.raises(SpecificationError, match="120% of the robot"):
         size_or_advise(specified, placed.robot, Steps(), strict=True)
 
 
-QUARTER = Specification(
+QUARTER_TURN = Specification(
     robot=RobotSection(file=str(SOLO12)),
     requirement=RequirementSection(
         gravity=1.62, turn=(About(0.0, 0.0, pi / 2.0, 2.9, "rad"),), reliability=0.5
@@ -160,17 +162,17 @@ QUARTER = Specification(
 @pytest.mark.slow
 @pytest.mark.usefixtures("no_alternatives", "no_files")
 @pytest.mark.parametrize(
-    "most", [rounds.TURN_ROUNDS, pytest.param(0, marks=pytest.mark.exhaustive)]
+    "rounds_allowed", [rounds.TURN_ROUNDS, pytest.param(0, marks=pytest.mark.exhaustive)]
 )
-def test_a_closed_form_that_asks_too_little_is_made_good_by_the_plan(most, tmp_path, monkeypatch):
-    full = turns.loop_length
-    monkeypatch.setattr(turns, "loop_length", lambda heading: 0.6 * full(heading))
-    monkeypatch.setattr(rounds, "TURN_ROUNDS", most)
-    told = []
+def test_rounds_correct_a_closed_form_that_is_too_low(rounds_allowed, tmp_path, monkeypatch):
+    original = turns.loop_length
+    monkeypatch.setattr(turns, "loop_length", lambda heading: 0.6 * original(heading))
+    monkeypatch.setattr(rounds, "TURN_ROUNDS", rounds_allowed)
+    steps = []
     outcome = design_ocs(
-        QUARTER, out=tmp_path / "x", progress=lambda name, _part: told.append(name)
+        QUARTER_TURN, out=tmp_path / "x", progress=lambda name, _part: steps.append(name)
     )
     warnings = outcome.design.ocs.warnings
-    unmade = [each for each in warnings if "cannot make this turn in 2.9 s: they need" in each]
-    assert ("resize the device for its turns" in told) is (most > 0)
-    assert len(unmade) == (0 if most else 1)
+    infeasible = [text for text in warnings if "cannot make this turn in 2.9 s: they need" in text]
+    assert ("resize the device for its turns" in steps) is (rounds_allowed > 0)
+    assert len(infeasible) == (0 if rounds_allowed else 1)

@@ -1,4 +1,4 @@
-"""Options as they are stated, and the examples of the commands."""
+"""Options of the command line as a specification, and the examples of the commands."""
 
 import shlex
 from types import SimpleNamespace
@@ -21,14 +21,14 @@ def specified(**parameters):
     return specified_by_command(SimpleNamespace(params={"spec": None, **parameters}))
 
 
-def test_nothing_stated_is_an_empty_specification():
+def test_no_options_give_an_empty_specification():
     specification = specified(robot=None, motor=None, joint=(), co_design=False)
     assert specification.motor.name is None
     assert specification.ocs.co_design is None
     assert specification.robot.joints is None
 
 
-def test_options_are_keys_by_their_names():
+def test_options_become_keys_of_the_specification():
     specification = specified(
         robot="dog.urdf", motor="none", r_max="40 mm", co_design=True, joint=("knee=90 deg",)
     )
@@ -39,40 +39,40 @@ def test_options_are_keys_by_their_names():
     assert specification.robot.joints == {"knee": pytest.approx(1.5707963267948966)}
 
 
-def test_zero_is_something_that_is_stated():
+def test_zero_is_a_value():
     assert specified(seed=0).validation.seed == 0
     assert specified(seed=None).validation.seed is None
 
 
-def test_a_robot_without_a_name_is_told_as_the_argument_that_it_is():
+def test_an_empty_robot_is_reported_as_the_argument():
     with pytest.raises(UsageError, match=r"^ROBOT: "):
         specified(robot="")
 
 
-def test_the_command_to_fly_a_sample_again_has_all_that_makes_it_the_same_robot():
-    """It left out the file of distributions and the law, and flew another robot."""
+def test_the_command_for_a_sample_has_all_relevant_options():
+    """Once distributions and control law were missing, so that another robot was flown."""
     command = typer.main.get_command(app).commands["validate"]
-    typed = (
+    arguments = (
         "d.json --samples 6 --seed 3 --reality 'my reality.toml' --spec s.toml --ballistic "
         "--desaturate --survives one --detection 10ms --robot r.urdf --package-path a=/x "
         "--package-path b=/y -o out --force"
     )
-    with command.make_context("validate", shlex.split(typed)) as context:
-        again = shlex.split(sample_command(context, "d.json", 3))[2:]
-    with command.make_context("validate", [*again[:-1], "4"]) as repeated:
+    with command.make_context("validate", shlex.split(arguments)) as context:
+        repeated_command = shlex.split(sample_command(context, "d.json", 3))[2:]
+    with command.make_context("validate", [*repeated_command[:-1], "4"]) as repeated:
         assert repeated.params["sample"] == 4
         for name in ("design", "seed", *REPEATED):
             assert repeated.params[name] == context.params[name], name
 
 
-def test_what_is_declined_is_false():
+def test_options_that_switch_off_are_false():
     assert specified(no_validate=True).validation.enabled is False
     assert specified(no_validate=False).validation.enabled is None
     assert specified(video=True).validation.video is True
     assert specified(video=False).validation.video is None
 
 
-def test_an_option_goes_over_the_file_and_leaves_the_rest(tmp_path):
+def test_options_override_the_file(tmp_path):
     file = tmp_path / "spec.toml"
     file.write_text('[motor]\nname = "MN4010 KV580"\nbus_voltage = "48 V"\n')
     specification = specified(spec=str(file), motor="none")
@@ -86,17 +86,17 @@ def package_paths(*texts):
 def test_package_paths_are_pairs(tmp_path):
     assert package_paths() == {}
     (tmp_path / "with=sign").mkdir()
-    found = package_paths(f"a={tmp_path}", f"b={tmp_path}/with=sign")
-    assert found == {"a": tmp_path, "b": tmp_path / "with=sign"}
+    paths = package_paths(f"a={tmp_path}", f"b={tmp_path}/with=sign")
+    assert paths == {"a": tmp_path, "b": tmp_path / "with=sign"}
 
 
 @pytest.mark.parametrize("text", ["alone", "=folder", "name="])
-def test_what_is_no_pair_is_refused(text):
+def test_incomplete_package_paths_are_refused(text):
     with pytest.raises(UsageError, match="expected NAME=DIR"):
         package_paths(text)
 
 
-GROUP = typer.main.get_command(app)
+COMMAND_GROUP = typer.main.get_command(app)
 
 
 @pytest.mark.parametrize("line", [line for lines in EXAMPLES.values() for line in lines])
@@ -104,21 +104,21 @@ def test_an_example_is_parsed(line):
     program, name, *arguments = shlex.split(line)
     assert program == "ocs-design"
     assert line in EXAMPLES[name]
-    outer = GROUP.make_context("ocs-design", [name, *arguments])
-    context = GROUP.commands[name].make_context(name, arguments, parent=outer)
+    outer = COMMAND_GROUP.make_context("ocs-design", [name, *arguments])
+    context = COMMAND_GROUP.commands[name].make_context(name, arguments, parent=outer)
     if "spec" in context.params and "design" not in context.params:
         assert list(unknown_names(specified_by_command(context))) == []
 
 
-def test_every_command_has_examples_in_its_help_that_no_terminal_breaks():
-    assert set(EXAMPLES) == set(GROUP.commands)
-    for name, command in GROUP.commands.items():
+def test_every_command_has_examples_in_its_help():
+    assert set(EXAMPLES) == set(COMMAND_GROUP.commands)
+    for name, command in COMMAND_GROUP.commands.items():
         context = command.context_class(command, info_name=name, max_content_width=80)
         assert all(f"\n    {line}\n" in command.get_help(context) + "\n" for line in EXAMPLES[name])
 
 
 @pytest.mark.parametrize("option", ["-h", "--help"])
-def test_help_is_asked_for_in_two_ways(option, capsys):
+def test_help_has_two_options(option, capsys):
     for arguments in ([option], ["size", option]):
-        assert GROUP.main(arguments, prog_name="ocs-design", standalone_mode=False) == 0
+        assert COMMAND_GROUP.main(arguments, prog_name="ocs-design", standalone_mode=False) == 0
         assert "-h, --help" in capsys.readouterr().out
