@@ -426,10 +426,12 @@ def build_gaps(motor: Motor) -> tuple[str, ...]:
     """
     mounting = motor.mounting or Mounting()
     shaft = mounting.shaft_diameter, mounting.shaft_length
+    # The hub's bore centres a cylinder; a thread has up to 0.2 mm of play in it (M5 of ISO 965).
+    held = None not in shaft and mounting.shaft_form in {ShaftForm.PLAIN, ShaftForm.FLAT}
     missing = {
         "bolt circle of the stator": mounting.stator,
-        "bolt circle of the rotor or data of the shaft (diameter, length, form)": (
-            mounting.rotor or (None if None in shaft else mounting.shaft_form)
+        "bolt circle of the rotor or data of a shaft without thread (diameter, length, form)": (
+            mounting.rotor or (mounting.shaft_form if held else None)
         ),
         "body diameter": motor.diameter,
         "body length": motor.length,

@@ -3,7 +3,7 @@
 import json
 import math
 import re
-from dataclasses import fields
+from dataclasses import fields, replace
 from statistics import median
 
 import pytest
@@ -16,6 +16,7 @@ from ocs_design.actuation.motor import (
     Face,
     Gear,
     MotorKind,
+    ShaftForm,
     build_gaps,
     estimated_continuous_torque,
     estimated_rotor_inertia,
@@ -205,6 +206,16 @@ def test_every_complete_motor_is_held_by_known_screws():
     for row in complete:
         assert mount_of(row, None).holes.screws is not None, row.name
         assert row.mounting.stator_face in set(Face)
+
+
+@pytest.mark.parametrize("form", [ShaftForm.PLAIN, ShaftForm.FLAT, ShaftForm.THREAD])
+def test_a_wheel_is_bonded_on_a_cylinder_and_on_no_thread(form):
+    """A bore does not centre a wheel on a thread for a propeller's nut."""
+    threaded = motors()["XING 2806.5 KV1800"]
+    assert threaded.mounting.shaft_form is ShaftForm.THREAD
+    gaps = build_gaps(replace(threaded, mounting=replace(threaded.mounting, shaft_form=form)))
+    assert len(gaps) == (form is ShaftForm.THREAD)
+    assert all("shaft without thread" in gap for gap in gaps)
 
 
 def test_heavy_robots_have_motors_that_can_be_built_with():
