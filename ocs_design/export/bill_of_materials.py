@@ -353,14 +353,14 @@ def _web_text(web: Web) -> str:
 
 
 def _stock(outer_radius: float, inner_radius: float, length: float) -> str:
-    """Tube for a bore of more than half the diameter, else a bar; whole millimetres."""
+    """Ring for a bore of more than half the diameter, else a bar; whole millimetres."""
     # Rounded first, so that rounding errors do not add a millimetre.
     outside = math.ceil(round(1e3 * (2.0 * outer_radius + _ALLOWANCE), 6))
     cut = math.ceil(round(1e3 * (length + _ALLOWANCE), 6))
     if inner_radius <= 0.5 * outer_radius:
-        return f"round bar {outside} x {cut}"
+        return f"round bar, at least {outside} x {cut}"
     inside = math.floor(round(1e3 * (2.0 * inner_radius - _ALLOWANCE), 6))
-    return f"tube {outside} x {inside} inside x {cut}"
+    return f"tube or plate, at least {outside} x {cut}, at most {inside} inside"
 
 
 def _grams(mass: float) -> str:

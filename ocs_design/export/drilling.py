@@ -32,6 +32,7 @@ from ocs_design.export.drawing.sheet import (
     rectangle,
     wrapped,
 )
+from ocs_design.export.drawing.title_block import device_hash
 from ocs_design.export.formats import Subject
 from ocs_design.parts.carrier_plate import steepest
 from ocs_design.parts.module import part_name
@@ -70,6 +71,7 @@ class Drilling:
         refused: that the device cannot be built, and why; then no hole may be drilled.
         tilt: largest angle of the holes off square to a round trunk, which is drilled through a
             block shaped to it [rad]; 0: the trunk is flat there.
+        identity: identifier of the design, as on the other sheets.
     """
 
     robot: str
@@ -83,6 +85,7 @@ class Drilling:
     upwards: bool
     refused: str
     tilt: float
+    identity: str
 
     @property
     def items(self) -> tuple[Item, ...]:
@@ -99,7 +102,7 @@ class Drilling:
                 f"{self.robot}: drill nothing by this sheet. The device cannot be built as it "
                 "stands, and the cure may move its holes, or they lie off the trunk.",
                 f"At the crosses it would have {len(self.holes)} holes for {self.screw.name}; "
-                f"{frame}. Thin lines: {self.standing}.",
+                f"{frame}. Thin lines: {self.standing}. Design {self.identity}.",
             )
         ends = dict.fromkeys(f"{MILLIMETRES * each:.1f}" for each in self.reach)
         # One pitch more than the screws' reach.
@@ -125,7 +128,7 @@ class Drilling:
             f"carbon: drill {MILLIMETRES * self.screw.clearance_hole:.3g} mm through, nuts and "
             "washers behind, screws longer by both and by the wall.",
             "The trunk is assumed to be aluminium: robot files do not say. Thin lines: "
-            f"{self.standing}.",
+            f"{self.standing}. Design {self.identity}.",
         )
 
     @property
@@ -210,6 +213,7 @@ def drilling_of(subject: Subject) -> Drilling | None:
         upwards=mast is not None,
         refused=subject.refused,
         tilt=0.0 if plate is None or plate.relief is None else steepest(plate),
+        identity=device_hash(device),
     )
 
 

@@ -12,6 +12,7 @@ from wheels import paper_device
 from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.export.device_parts import foot_holes
 from ocs_design.export.drawing.sheet import HEIGHT, THIN, Area, Circle, Lettering, Line
+from ocs_design.export.drawing.title_block import device_hash
 from ocs_design.export.drawing.writers import pdf_of_pages
 from ocs_design.export.drilling import CHECK, SHEET, drilling_of, pages
 from ocs_design.export.formats import Base, Subject
@@ -74,9 +75,9 @@ def test_the_pdf_is_in_full_size_with_forward_up(device):
     offset = drawn - expected
     np.testing.assert_allclose(offset, offset[[0]].repeat(len(offset), axis=0), atol=1e-9)
     assert all(circle.radius == pytest.approx(1.25) for circle in circles)
-    assert f"dog: drill {len(circles)} holes of 2.5 mm at the crosses, and tap M3" in lettering(
-        page
-    )
+    words = lettering(page)
+    assert f"dog: drill {len(circles)} holes of 2.5 mm at the crosses, and tap M3" in words
+    assert f"Design {device_hash(device)}." in words
     lines = [line for line in page if isinstance(line, Line) and line.start[1] == line.end[1]]
     below = [line for line in lines if line.start[1] > bottom and line.start[0] == left]
     assert below[0].end[0] - below[0].start[0] == CHECK

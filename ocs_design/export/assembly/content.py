@@ -10,7 +10,7 @@ from math import pi, sqrt
 
 from ocs_design.actuation.fasteners import CLASSES, BoltedJoint, Fastening
 from ocs_design.common.units import significant
-from ocs_design.device.joints import burst_of, foot_hold
+from ocs_design.device.joints import balance_of, burst_of, foot_hold
 from ocs_design.export.assembly.placed import Piece, bonding_pieces, module_pieces
 from ocs_design.export.device_parts import places, trunk_holes
 from ocs_design.export.formats import Documented, Subject
@@ -158,14 +158,17 @@ class Assembly(Documented):
             lock = "medium-strength threadlocker"
             if held.joint.on_print:
                 lock += ", a drop on the tips only, because it attacks the print"
+            if held.joint is BoltedJoint.WHEEL and balance_of(self.device).shifted:
+                lock += " when the wheel runs true (next step)"
+        cut = "" if held.shortened is None else f" shortened to {1e3 * held.shortened:.3g} mm"
         plate, where = self.device.plate, ""
         # Places of these screws on the trunk [mm] if their lengths differ.
         if plate is not None and held.several_lengths:
             own = zip(places(trunk_holes(plate)), plate.screw_lengths, strict=True)
             where = f"; those at {', '.join(at for at, length in own if length == held.length)}"
         return (
-            f"{held.name.capitalize()}: {held.count} x {held.designation}{self.number(held)}"
-            f"{found.with_washers}, "
+            f"{held.name.capitalize()}: {held.count} x {held.designation}{cut}"
+            f"{self.number(held)}{found.with_washers}, "
             f"{significant(found.torque, 2)} N m, crosswise in two rounds; {lock}{where}."
         )
 

@@ -164,7 +164,10 @@ def module_steps(assembly: Assembly) -> Iterator[str]:
         )
     yield from _drive_steps(assembly)
     if "lid" in assembly.numbers:
-        loose = " Only its screws centre it: loosen them, shift it and tighten them again."
+        loose = (
+            " Only its screws centre it: loosen them, shift it and tighten them again. Once it "
+            "runs true, take them out one by one for their threadlocker."
+        )
         yield (
             "Turn the wheel by hand: it is free all around, and a strip of "
             f"{1e3 * HAND_STRIP:g} mm passes between rim and housing. Check the rim's "
@@ -265,7 +268,12 @@ def robot_steps(assembly: Assembly) -> Iterator[str]:
 
 def _wheel_steps(assembly: Assembly) -> Iterator[str]:
     """Steps to turn the wheel, and to shrink it on its web or bond it to the motor's bell."""
-    device = assembly.device
+    device, wide = assembly.device, 2e3 * GLUE_GAP
+    if device.on_bell:
+        yield (
+            "Measure the bell across its straight part before the ring is bored: the bore is "
+            f"{wide:g} mm wider."
+        )
     yield (
         "Turn the wheel to cad/wheel.pdf (`export --formats step,dxf` writes it for a shop's "
         f"machines). Rim to bore: run-out at most {1e3 * RUN_OUT:g} mm. "
@@ -288,19 +296,17 @@ def _wheel_steps(assembly: Assembly) -> Iterator[str]:
         )
     if not device.on_bell:
         return
-    gap, wide = 1e3 * GLUE_GAP, 2e3 * GLUE_GAP
     yield (
-        "Measure the bell across its straight part before the ring is bored: the bore is "
-        f"{wide:g} mm wider. Print the fixture{assembly.number('ring_fixture')} in PETG, one for "
-        "each ring, floor down; scrape it until bell and ring slide in, and wax it."
+        f"Print the fixture{assembly.number('ring_fixture')} in PETG, one for each ring, floor "
+        "down; scrape it until bell and ring slide in, and wax it."
     )
     yield (
         "Take the bell with its shaft off the stator, as its maker's clip allows, so that no "
         f"glue gets into the motor. Roughen and degrease bell and bore. Lay the ring"
         f"{assembly.number('flywheel')} on the step of the fixture, spread epoxy ({EPOXY}, or "
         "one that is as strong at 80 °C) around the bell, and turn it down into the ring "
-        f"onto the fixture's floor: {gap:g} mm of glue all around. Weigh it down, turn the "
-        "ring once more, and let it cure for the full time on its maker's sheet."
+        f"onto the fixture's floor: {1e3 * GLUE_GAP:g} mm of glue all around. Weigh it down, turn "
+        "the ring once more, and let it cure for the full time on its maker's sheet."
     )
     yield (
         "Put the bell back on its stator and turn it: run-out of the ring at most "

@@ -98,7 +98,8 @@ def plate_sheets(device: Device, robot: str, refused: str = "") -> list[list[Ite
             texture="as rolled, edges Ra 6.3 (ISO 21920)",
             sheet=f"{number} / {count}",
         )
-        sheets.append(whole_sheet(view, _plate_notes(one), entries, refused))
+        middles = [plate.each[index].position[:2] for index in indices]
+        sheets.append(whole_sheet(view, _plate_notes(one, middles), entries, refused))
     mast = plate.mast
     if mast is not None:
         scale, view = _mast_views(plate, mast)
@@ -244,11 +245,16 @@ def _hole_table(plate: CarrierPlate) -> Iterator[Item]:
         yield Line((x, y - 3.6), (RIGHT - 4.0, y - 3.6), THIN)
 
 
-def _plate_notes(plate: CarrierPlate) -> Iterator[str]:
+def _plate_notes(plate: CarrierPlate, middles: list[tuple[float, float]]) -> Iterator[str]:
+    """Notes on a plate, or on equal plates with their middles there in the base frame [m]."""
     yield (
         f"Holes A are threads {plate.foot_thread} right through, for the "
         "feet's screws; places of holes ±0.1 from the axes, x forward and y to the left."
     )
+    crosses = " and ".join(
+        f"({plain(round(x, 5) + 0.0)}, {plain(round(y, 5) + 0.0)})" for x, y in middles
+    )
+    yield f"On the robot the axes cross at x, y = {crosses} of the base frame."
     ends = f"Ends R~{plain(plate.radius)} around their windows' middles"
     if plate.window == 0.0:
         ends = f"Ends R~{plain(plate.radius)}, {plain(plate.across)} from the middle of the plate"

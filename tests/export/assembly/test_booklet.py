@@ -586,6 +586,27 @@ def test_a_wheel_centred_by_its_screws_alone_is_noted(shaft, noted):
     motor = replace(caged.motor, mounting=replace(caged.motor.mounting, shaft_diameter=shaft))
     text = texts(Assembly("solo12", replace(caged, motor=motor)), "Steps")
     assert ("Only its screws centre it" in text) == noted
+    # What is still to be shifted is not locked.
+    assert ("threadlocker when the wheel runs true" in text) == noted
+    assert ("take them out one by one for their threadlocker" in text) == noted
+
+
+def test_screws_are_shortened_in_the_step_that_tightens_them():
+    """Uncut they meet the bottom of a thread of 3 mm under a hub of 3 mm."""
+    caged = DEVICES["caged"]
+    rotor = replace(caged.motor.mounting.rotor, drawn=0.003)
+    motor = replace(caged.motor, mounting=replace(caged.motor.mounting, rotor=rotor))
+    text = texts(Assembly("solo12", replace(caged, motor=motor)), "Steps")
+    assert re.search(r"Wheel on rotor: \d x ISO 4762 M\d x 6 shortened to 5.5 mm \(\d+\),", text)
+    assert "shortened" not in texts(Assembly("solo12", caged), "Steps")
+
+
+def test_a_bell_is_measured_before_its_ring_is_bored():
+    caged = DEVICES["caged"]
+    text = texts(Assembly("solo12", replace(caged, on_bell=True)), "Steps")
+    assert (
+        0 <= text.find("Measure the bell") < text.index("Turn the wheel to") < text.index("fixture")
+    )
 
 
 def test_each_foot_of_a_triad_is_aligned_with_its_axis():

@@ -116,6 +116,13 @@ def test_plates_that_differ_have_a_sheet_each(inwards):
         assert titles == ["Front plate under the feet", "Rear plate under the feet"]
     else:
         assert titles == ["Plate under the feet, 2 off"]
+    # Where they stand: a trunk drilled to the sheet's own table misses them.
+    x = PLATE.position[0]
+    middles = [f"({1e3 * (x + row):.4g}, 0)" for row in (front, rear)]
+    notes = " ".join(item.text for page in pages for item in texts(page))
+    if not inwards:
+        middles = [" and ".join(middles)]
+    assert re.findall(r"axes cross at x, y = (.*?) of the base frame", notes) == middles
     for page, plate in zip(pages, twice.each, strict=False):
         said = [item.text for item in texts(page)]
         assert all(f"{1e3 * y:.2f}" in said for _, y in plate.trunk)
