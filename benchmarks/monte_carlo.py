@@ -26,7 +26,7 @@ from paired import SOLO12
 
 from ocs_design.monte_carlo.campaign import make_campaign
 from ocs_design.monte_carlo.outcomes import blocks_of
-from ocs_design.monte_carlo.running import AT_ONCE, Cluster, fly_here, run_campaign
+from ocs_design.monte_carlo.running import BLOCKS_AT_ONCE, Cluster, fly_here, run_campaign
 from ocs_design.monte_carlo.uncertainty import Uncertainty
 from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.requirement.specification import Specification
@@ -86,7 +86,7 @@ def threads():
 
     def rate(count):
         start = time.perf_counter()
-        run_campaign(campaign, blocks, fly=partial(fly_here, threads=count, at_once=AT_ONCE))
+        run_campaign(campaign, blocks, fly=partial(fly_here, threads=count, at_once=BLOCKS_AT_ONCE))
         return 128 / (time.perf_counter() - start)
 
     rates = interleaved({"one": lambda: rate(1), "two": lambda: rate(2)})

@@ -131,10 +131,10 @@ def endings(test: SequentialTest) -> list[tuple[int, int, Conclusion, float]]:
 
     Dynamic programming over the number of failures: exact, nothing is drawn.
     """
-    gain = log(test.asked / test.worse)
-    loss = log((1.0 - test.asked) / (1.0 - test.worse))
+    gain = log(test.required / test.worse)
+    loss = log((1.0 - test.required) / (1.0 - test.worse))
     ends, ways = [], {0: 0.0}
-    for count in range(1, test.most + 1):
+    for count in range(1, test.most_flights + 1):
         grown: dict[int, float] = {}
         for failed, before in ways.items():
             for now in (failed, failed + 1):
@@ -145,7 +145,7 @@ def endings(test: SequentialTest) -> list[tuple[int, int, Conclusion, float]]:
             if abs(evidence) >= log(1.0 / ERROR):
                 finding = Conclusion.CERTIFIED if evidence > 0.0 else Conclusion.SHORT
                 ends.append((count - failed, count, finding, paths))
-            elif count == test.most:
+            elif count == test.most_flights:
                 ends.append((count - failed, count, Conclusion.UNDECIDED, paths))
             else:
                 ways[failed] = paths
@@ -171,7 +171,7 @@ def characteristic(asked: str) -> str:
     ends = endings(test)
     rows = []
     for share in (0.1, 0.5, 1.0, 2.0, 3.0, 5.0):
-        reliability = 1.0 - share * (1.0 - test.asked)
+        reliability = 1.0 - share * (1.0 - test.required)
         chances, mean = operating(ends, reliability)
         rows.append(
             (

@@ -38,7 +38,7 @@ def flown(asked: Specification) -> tuple[float, SurvivalRecord]:
     stops = replace(asked, requirement=replace(asked.requirement, survives="any one motor"))
     with TemporaryDirectory() as folder:
         made = design_ocs(asked, out=f"{folder}/made")
-        found = validate_design(made, specification=stops).found.survival
+        found = validate_design(made, specification=stops).record.survival
     assert found is not None, "its drives stop"
     return made.design.ocs.mass_total, found
 

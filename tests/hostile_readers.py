@@ -25,7 +25,7 @@ from ocs_design.robot.meshes import longest_side, mesh_bounds, unscaled_bounds
 from ocs_design.robot.mujoco_model import build_spec
 from ocs_design.robot.reader import read_group_states, read_robot
 from ocs_design.workflows.inspect import inspect_robot
-from ocs_design.workflows.restoring import read_designed, robot_of, seat_of
+from ocs_design.workflows.restoring import base_of, read_designed, robot_of
 
 GEARS = b"""[[gear]]
 name = "one to five"
@@ -165,7 +165,7 @@ def read_and_restore(path: Path) -> object:
     return (
         safe_name(design.robot.name),
         device.mass,
-        seat_of(design.robot),
+        base_of(design.robot),
         robot,
         to_json(design),
     )

@@ -85,7 +85,7 @@ def _examples(command: str) -> str:
     return "\b\n" + "\n".join(["Examples:", *(f"  {line}" for line in EXAMPLES[command])])
 
 
-class _OnDesign(TyperCommand):
+class _DesignCommand(TyperCommand):
     """A command on a design, whose usage shows DESIGN without the braces of a choice."""
 
     def collect_usage_pieces(self, ctx: Any) -> list[str]:  # noqa: ANN401  # typer hides its type
@@ -332,7 +332,7 @@ def bound(
 
 
 for command in (export, validate):
-    app.command(cls=_OnDesign, epilog=_examples(command.__name__))(command)
+    app.command(cls=_DesignCommand, epilog=_examples(command.__name__))(command)
 for command in (pareto, init, doctor):
     app.command(epilog=_examples(command.__name__))(command)
 

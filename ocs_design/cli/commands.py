@@ -86,12 +86,22 @@ def init(
     packages, specified = package_paths_of_command(context), specified_by_command(context)
     read = partial(read_start, package_paths=packages, strict=strict)
     asking = not (yes or as_json) and sys.stdin.isatty() and sys.stderr.isatty()
-    own = specified.robot
-    if asking and all(item is None for item in (own.file, own.mass, own.inertia, own.human)):
+    robot_section = specified.robot
+    if asking and all(
+        item is None
+        for item in (
+            robot_section.file,
+            robot_section.mass,
+            robot_section.inertia,
+            robot_section.human,
+        )
+    ):
         start = _ask(
             "Robot file (URDF, xacro or MJCF), or nothing",
             "",
-            lambda file: read(replace(specified, robot=replace(own, file=file.strip() or None))),
+            lambda file: read(
+                replace(specified, robot=replace(robot_section, file=file.strip() or None))
+            ),
         )
     else:
         start = read(specified)
@@ -388,13 +398,14 @@ def validate(
         view=view,
         progress=output.steps,
     )
-    record, again = answer.found.monte_carlo, ""
+    record, replay_command = answer.record.monte_carlo, ""
     if record is not None:
         # Engines other than MuJoCo fly many samples only.
-        by = "" if engine == "mujoco" else " with MuJoCo"
-        again = f"Fly one again{by}: {sample_command(context, answer.found.design, record.seed)}"
-    show = partial(print_validated, folder=answer.folder, files=answer.files, again=again)
-    output.give(answer.found, show, answer.found.warnings)
+        engine_text = "" if engine == "mujoco" else " with MuJoCo"
+        command = sample_command(context, answer.record.design, record.seed)
+        replay_command = f"Fly one again{engine_text}: {command}"
+    show = partial(print_validated, folder=answer.folder, files=answer.files, again=replay_command)
+    output.give(answer.record, show, answer.record.warnings)
     if view:
         watch(answer)
-    output.end(answer.exit_code, answer.found)
+    output.end(answer.exit_code, answer.record)

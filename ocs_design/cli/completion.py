@@ -31,7 +31,7 @@ def any_of(names: Names) -> Completer:
 
     def complete(incomplete: str) -> list[str]:
         offered = (name.replace(" ", "-") for name in names())
-        return [each for each in offered if each.startswith(incomplete)]
+        return [name for name in offered if name.startswith(incomplete)]
 
     return complete
 
@@ -52,7 +52,7 @@ def listed(completer: Completer) -> Completer:
 
     def complete(incomplete: str) -> list[str]:
         before, comma, last = incomplete.rpartition(",")
-        return [before + comma + each for each in completer(last)]
+        return [before + comma + name for name in completer(last)]
 
     return complete
 
@@ -64,12 +64,12 @@ def files(*ends: str) -> Completer:
     """
 
     def complete(incomplete: str) -> list[str]:
-        found = sorted(_paths(incomplete, ends))
+        paths = sorted(_paths(incomplete, ends))
         # A single folder would be taken as the complete word.
-        while len(found) == 1 and found[0].endswith(os.sep):
-            found = sorted(_paths(found[0], ends))
-        plain = all(set(each) <= _PLAIN for each in found)
-        return found if plain else []
+        while len(paths) == 1 and paths[0].endswith(os.sep):
+            paths = sorted(_paths(paths[0], ends))
+        plain = all(set(path) <= _PLAIN for path in paths)
+        return paths if plain else []
 
     return complete
 
@@ -79,8 +79,8 @@ _PLAIN = frozenset(
 )
 
 
-def _paths(begun: str, ends: tuple[str, ...]) -> Iterator[str]:
-    folder, name = os.path.split(begun)
+def _paths(typed: str, ends: tuple[str, ...]) -> Iterator[str]:
+    folder, name = os.path.split(typed)
     try:
         entries = list(os.scandir(folder or os.curdir))
     except OSError:
@@ -120,20 +120,22 @@ def formats() -> Iterable[str]:
     """Names of the formats that a design can be exported to."""
     from ocs_design.export.formats import ALL, FORMATS
 
-    return (*(each.name for each in FORMATS), "figures", "report", ALL)
+    return (*(file_format.name for file_format in FORMATS), "figures", "report", ALL)
 
 
-PAPERS = ("disturbance", "drop", "back-flip")
+PAPER_MANEUVERS = ("disturbance", "drop", "back-flip")
 """Names of the default maneuvers."""
 
 
 def maneuvers(context: typer.Context, incomplete: str) -> list[str]:
     """Names of the maneuvers in the specification typed so far, or of the paper's."""
-    names: Iterable[str] = PAPERS
+    names: Iterable[str] = PAPER_MANEUVERS
     if context.params.get("spec") is not None:
         from ocs_design.requirement.reading import read_specification
 
         with suppress(OcsError):
             specified = read_specification(Path(context.params["spec"])).maneuvers
-            names = [each.name for each in specified if " " not in each.name] or PAPERS
+            names = [
+                maneuver.name for maneuver in specified if " " not in maneuver.name
+            ] or PAPER_MANEUVERS
     return any_of(lambda: names)(incomplete)

@@ -106,28 +106,28 @@ def _write_nowhere(*streams: TextIO) -> None:
 
 def _report(error: Failure, *, as_json: bool, color: bool) -> int:
     """Print what went wrong; returns the exit code."""
-    known = _as_ocs_error(error)
+    reported = _as_ocs_error(error)
     unprinted = isinstance(error, OSError) and error.filename is None
     if unprinted:
         # Output that could not be printed is still in the buffer.
         _write_nowhere(sys.stdout)
     try:
         if as_json and not unprinted:
-            message = {"kind": known.kind, "message": known.message, "hint": known.hint}
-            document = {"schema_version": SCHEMA_VERSION, "error": {**message, **known.data()}}
+            message = {"kind": reported.kind, "message": reported.message, "hint": reported.hint}
+            document = {"schema_version": SCHEMA_VERSION, "error": {**message, **reported.data()}}
             print(json.dumps(document, indent=2))
         else:
             from ocs_design.report.text.console import error_panel, make_console
 
-            problems = known.problems if isinstance(known, SpecificationError) else ()
-            lines = [known.message, *(f"  - {problem}" for problem in problems)]
-            error_panel(lines, known.hint, color=color)
-            if isinstance(known, Infeasible):
+            problems = reported.problems if isinstance(reported, SpecificationError) else ()
+            lines = [reported.message, *(f"  - {problem}" for problem in problems)]
+            error_panel(lines, reported.hint, color=color)
+            if isinstance(reported, Infeasible):
                 from ocs_design.report.text.size import print_assumed
 
-                print_assumed(make_console(color=color, stderr=True), known.assumptions)
+                print_assumed(make_console(color=color, stderr=True), reported.assumptions)
     except OSError:
         if not isinstance(error, OSError):
             raise
         _write_nowhere(sys.stderr)
-    return known.exit_code
+    return reported.exit_code

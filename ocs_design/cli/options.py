@@ -30,8 +30,8 @@ def with_options(shared: Mapping[str, object]) -> Callable[[Command], Command]:
         def run(**given: object) -> None:
             command(**{name: value for name, value in given.items() if name not in shared})
 
-        context, *own = inspect.signature(command).parameters.values()
-        redeclare(run, [context, *parameters(shared, default=None), *own])
+        context, *of_command = inspect.signature(command).parameters.values()
+        redeclare(run, [context, *parameters(shared, default=None), *of_command])
         return run
 
     return declared
@@ -49,7 +49,7 @@ def parameters(options: Mapping[str, object], *, default: object) -> list[inspec
 def redeclare(command: Command, parameters: list[inspect.Parameter]) -> None:
     """Replace the declared parameters of a command, from which Typer makes options."""
     command.__dict__["__signature__"] = inspect.Signature(parameters)
-    command.__annotations__ = {each.name: each.annotation for each in parameters}
+    command.__annotations__ = {parameter.name: parameter.annotation for parameter in parameters}
 
 
 Text: TypeAlias = str | None
@@ -57,25 +57,27 @@ Texts: TypeAlias = list[str] | None
 
 
 def option(
-    names: str, metavar: str, says: str, complete: Callable[..., list[str]] | None = None
+    names: str, metavar: str, help_text: str, complete: Callable[..., list[str]] | None = None
 ) -> object:
     """An option with a value; by default it is named after its parameter, with dashes."""
-    return typer.Option(*names.split(), metavar=metavar, help=says, autocompletion=complete)
+    return typer.Option(*names.split(), metavar=metavar, help=help_text, autocompletion=complete)
 
 
-def _text(metavar: str, says: str, complete: Callable[..., list[str]] | None = None) -> object:
+def _text(metavar: str, help_text: str, complete: Callable[..., list[str]] | None = None) -> object:
     """An option with one text."""
-    return Annotated[Text, option("", metavar, says, complete)]
+    return Annotated[Text, option("", metavar, help_text, complete)]
 
 
-def _texts(metavar: str, says: str, complete: Callable[..., list[str]] | None = None) -> object:
+def _texts(
+    metavar: str, help_text: str, complete: Callable[..., list[str]] | None = None
+) -> object:
     """A repeatable option with one text each time."""
-    return Annotated[Texts, option("", metavar, says, complete)]
+    return Annotated[Texts, option("", metavar, help_text, complete)]
 
 
-def _flag(name: str, says: str) -> object:
+def _flag(name: str, help_text: str) -> object:
     """An option without a value; a name made by Typer would come with `--no-...`."""
-    return Annotated[bool, typer.Option(name, help=says)]
+    return Annotated[bool, typer.Option(name, help=help_text)]
 
 
 RobotFile: TypeAlias = Annotated[
@@ -336,11 +338,11 @@ SIZE_OPTIONS: Mapping[str, object] = {
 }
 """Options of robot and device, and of everything done for a complete design."""
 
-STARTED = ("r_max", "h_max", "motor", "gear", "bus_voltage", "bus_current", "bus_power")
+START_KEYS = ("r_max", "h_max", "motor", "gear", "bus_voltage", "bus_current", "bus_power")
 
 START_OPTIONS: Mapping[str, object] = {
     **ROBOT_OPTIONS,
-    **{name: TASK_OPTIONS[name] for name in STARTED},
+    **{name: TASK_OPTIONS[name] for name in START_KEYS},
 }
 """Options of a robot, and those most often set in a specification to start from."""
 
@@ -395,7 +397,7 @@ def typed_command() -> str:
     return shlex.join(["ocs-design", *sys.argv[1:]])
 
 
-REPEATED = (
+REPLAY_PARAMETERS = (
     "spec",
     "reality",
     "ballistic",
@@ -416,15 +418,15 @@ def sample_command(context: typer.Context, design: str, seed: int) -> str:
         design: path of the `design.json`.
         seed: of the campaign.
     """
-    options = {each.name: each.opts[0] for each in context.command.params}
+    options = {parameter.name: parameter.opts[0] for parameter in context.command.params}
     words = ["ocs-design", "validate", design]
-    for name in REPEATED:
+    for name in REPLAY_PARAMETERS:
         value = context.params.get(name)
         if value is True:
             words.append(options[name])
         elif value:
             several = value if isinstance(value, list | tuple) else [value]
-            words += [word for each in several for word in (options[name], str(each))]
+            words += [word for item in several for word in (options[name], str(item))]
     return shlex.join([*words, "--seed", str(seed), "--sample", "N"])
 
 
@@ -436,7 +438,7 @@ def package_paths_of_command(context: typer.Context) -> Mapping[str, Path]:
     """
     from ocs_design.common.errors import UsageError
 
-    found = {}
+    folders = {}
     for text in context.params["package_path"] or ():
         name, separator, folder = text.partition("=")
         if not (name and separator and folder):
@@ -448,5 +450,5 @@ def package_paths_of_command(context: typer.Context) -> Mapping[str, Path]:
             raise UsageError(
                 f"--package-path {text}: there is no folder {folder}", hint="check the path"
             )
-        found[name] = Path(folder)
-    return found
+        folders[name] = Path(folder)
+    return folders

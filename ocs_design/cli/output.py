@@ -107,6 +107,10 @@ def with_output(command: opt.Command) -> opt.Command:
         output = Output(**{name: bool(given.pop(name)) for name in OUTPUT_OPTIONS})
         command(**given, output=output)
 
-    own = [each for each in inspect.signature(command).parameters.values() if each.name != "output"]
-    opt.redeclare(run, [*own, *opt.parameters(OUTPUT_OPTIONS, default=False)])
+    of_command = [
+        parameter
+        for parameter in inspect.signature(command).parameters.values()
+        if parameter.name != "output"
+    ]
+    opt.redeclare(run, [*of_command, *opt.parameters(OUTPUT_OPTIONS, default=False)])
     return run

@@ -84,8 +84,8 @@ class OcsFlight(gymnasium.Env[Observation, Observation]):
         """
         flights = read_flights(design, Specification(), robot_file=robot_file)
         # The record says what the legs can bear, unless the design was never flown.
-        steps_since_lift_off = flights.design.validation or flights.fly(Steps())
-        self._campaign = campaign_of(flights, steps_since_lift_off)
+        runs = flights.design.validation or flights.fly(Steps())
+        self._campaign = campaign_of(flights, runs)
         names = [flight.maneuver.name for flight in self._campaign.flights]
         if maneuver is not None and maneuver not in names:
             raise UsageError(f"the design has no maneuver {maneuver!r}", hint=f"it has {names}")
@@ -120,9 +120,9 @@ class OcsFlight(gymnasium.Env[Observation, Observation]):
         """
         super().reset(seed=seed)
         given = options or {}
-        drawn = self._names[int(self.np_random.integers(len(self._names)))]
+        chosen = self._names[int(self.np_random.integers(len(self._names)))]
         sample = int(self.np_random.integers(SAMPLES))
-        name, sample = given.get("maneuver", drawn), given.get("sample", sample)
+        name, sample = given.get("maneuver", chosen), given.get("sample", sample)
         names = [flight.maneuver.name for flight in self._campaign.flights]
         if name not in names:
             raise UsageError(f"the design has no maneuver {name!r}", hint=f"it has {names}")
@@ -132,12 +132,12 @@ class OcsFlight(gymnasium.Env[Observation, Observation]):
         flight = self._campaign.flights[self._number]
         self._world = flight.world
         if self._randomise:
-            self._world = self._campaign.built(self._campaign.sample(sample), self._number)
+            self._world = self._campaign.sampled_world(self._campaign.sample(sample), self._number)
         self._pilot = PilotedFlight(self._world, hold)
         self._pitch, self._landed = 0.0, False
         self._poses = [self._pilot.pose]
         observed = self._observed()
-        self._far = float(np.linalg.norm(self._left))
+        self._angle_left = float(np.linalg.norm(self._left))
         info = {"maneuver": name, "sample": sample if self._randomise else None}
         return observed, {**info, "law": self._law_action()}
 
@@ -161,14 +161,14 @@ class OcsFlight(gymnasium.Env[Observation, Observation]):
         if pilot.ended:
             self.metrics = measure(pilot.recording(), 0, self._world)
             verdict = self._campaign.judged(self.metrics, self._number)
-            found = {name: getattr(verdict, name) for name in ("passed", "level", "stands")}
-            reward = float(sum(each is True for each in found.values()))
-            return self._last, reward, True, False, {**found, "reason": verdict.reason}
+            judged = {name: getattr(verdict, name) for name in ("passed", "level", "stands")}
+            reward = float(sum(value is True for value in judged.values()))
+            return self._last, reward, True, False, {**judged, "reason": verdict.reason}
         observed, reward = self._observed(), 0.0
         self._landed |= pilot.in_contact and not self._maneuver.on_feet
         if not self._landed:
-            far = float(np.linalg.norm(self._left))
-            reward, self._far = self._far - far, far
+            angle_left = float(np.linalg.norm(self._left))
+            reward, self._angle_left = self._angle_left - angle_left, angle_left
         return observed, reward, False, False, {"law": self._law_action()}
 
     def render(self) -> RenderFrame | list[RenderFrame] | None:
@@ -184,13 +184,13 @@ class OcsFlight(gymnasium.Env[Observation, Observation]):
         if name not in self._models:
             device = flights.device.as_flown(self._maneuver)
             self._models[name] = film_model(flights.robot, device, ocs=True)
-        whole = self.render_mode == "rgb_array_list"
-        poses = self._poses if whole else self._poses[-1:]
+        as_list = self.render_mode == "rgb_array_list"
+        poses = self._poses if as_list else self._poses[-1:]
         (pictures,) = render_takes([Take(self._models[name], np.stack(poses))])
-        if whole:
+        if as_list:
             self._poses = self._poses[-1:]
         frames: list[RenderFrame] = list(pictures)
-        return frames if whole else frames[0]
+        return frames if as_list else frames[0]
 
     @property
     def _maneuver(self) -> Maneuver:
@@ -215,9 +215,9 @@ class OcsFlight(gymnasium.Env[Observation, Observation]):
         self._left = np.nan_to_num(left / np.pi)
         rate = readings.rate * world.flight_time / np.pi
         spin = readings.wheel_speed / self._top_speed
-        rest = np.array([time, float(pilot.in_contact)])
-        whole = np.concatenate([readings.vertical, rate, spin, self._left, rest])
-        last: Observation = np.clip(whole, -BOUND, BOUND).astype(np.float32)
+        others = np.array([time, float(pilot.in_contact)])
+        observation = np.concatenate([readings.vertical, rate, spin, self._left, others])
+        last: Observation = np.clip(observation, -BOUND, BOUND).astype(np.float32)
         self._last = last
         return last
 
@@ -237,5 +237,5 @@ class OcsFlight(gymnasium.Env[Observation, Observation]):
         """Action that the wheel law would take, shape (n,)."""
         readings = self._flying().readings
         torque = readings.law_torque
-        most = np.where(torque < 0.0, -readings.lowest, readings.highest)
-        return np.divide(torque, most, out=np.zeros_like(torque), where=most > 0.0)
+        limit = np.where(torque < 0.0, -readings.lowest, readings.highest)
+        return np.divide(torque, limit, out=np.zeros_like(torque), where=limit > 0.0)

@@ -17,7 +17,7 @@ from ocs_design.device.layout import Layout
 from ocs_design.export.folder import clear_leftovers, output_error, staging_beside
 from ocs_design.export.physics import STEP
 from ocs_design.monte_carlo.outcomes import METRICS, Outcomes, code_of, write_tables
-from ocs_design.monte_carlo.uncertainty import Sample, Uncertainty, built, quantities
+from ocs_design.monte_carlo.uncertainty import Sample, Uncertainty, quantities, sampled_world
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.simulation.engine import Engine
 from ocs_design.simulation.imperfections import AirDrag, air_drag
@@ -73,11 +73,13 @@ class Campaign:
 
     def worlds(self, sample: Sample) -> list[World]:
         """Every scenario of one robot."""
-        return [self.built(sample, number) for number in range(len(self.flights))]
+        return [self.sampled_world(sample, number) for number in range(len(self.flights))]
 
-    def built(self, sample: Sample, number: int, scratch: mujoco.MjData | None = None) -> World:
-        """Scenario `number` of one robot; `scratch`: see the function `built`."""
-        return built(
+    def sampled_world(
+        self, sample: Sample, number: int, scratch: mujoco.MjData | None = None
+    ) -> World:
+        """Scenario `number` of one robot; `scratch`: see the function `sampled_world`."""
+        return sampled_world(
             self.flights[number].world,
             sample,
             number,
@@ -150,40 +152,40 @@ def fly_samples(
     period = campaign.hold * STEP
     size = sum(1.5 * flight.world.model.nbuffer for flight in campaign.flights)
     size += sum(490.0 * flight.world.duration / period for flight in campaign.flights)
-    at_once = max(1, int(MEMORY / size))
+    batch_size = max(1, int(MEMORY / size))
     parts = []
-    for start in range(0, len(indices), at_once):
-        some = indices[start : start + at_once]
-        done, after = start / len(indices), (start + len(some)) / len(indices)
-        tell = partial_progress(progress, done, after)
-        parts.append(_flown_at_once(campaign, some, threads, tell))
+    for start in range(0, len(indices), batch_size):
+        batch = indices[start : start + batch_size]
+        done, after = start / len(indices), (start + len(batch)) / len(indices)
+        report = partial_progress(progress, done, after)
+        parts.append(_fly_batch(campaign, batch, threads, report))
     return Outcomes.joined(parts)
 
 
-def _flown_at_once(
+def _fly_batch(
     campaign: Campaign, indices: Sequence[int], threads: int | None, progress: Progress
 ) -> Outcomes:
     """Fly every scenario of these samples in one batch, whose memory is freed on return."""
     samples = [campaign.sample(index) for index in indices]
     scratch = [mujoco.MjData(flight.world.model) for flight in campaign.flights]
     worlds = [
-        campaign.built(sample, number, own)
+        campaign.sampled_world(sample, number, data)
         for sample in samples
-        for number, own in enumerate(scratch)
+        for number, data in enumerate(scratch)
     ]
     options = Options(hold=campaign.hold, threads=threads, engine=campaign.engine)
     flights = fly(worlds, options, progress)
     shape = (len(samples), len(campaign.flights))
     metrics, codes = np.full((*shape, len(METRICS)), np.nan), np.zeros(shape, dtype=np.int8)
     for place, flight in enumerate(flights):
-        row, found = divmod(place, len(campaign.flights)), flight.metrics
-        codes[row] = code_of(campaign.judged(found, row[1]))
-        if found is not None:
-            figures = (getattr(found, name) for name in METRICS)
+        row, flight_metrics = divmod(place, len(campaign.flights)), flight.metrics
+        codes[row] = code_of(campaign.judged(flight_metrics, row[1]))
+        if flight_metrics is not None:
+            figures = (getattr(flight_metrics, name) for name in METRICS)
             metrics[row] = [np.nan if figure is None else float(figure) for figure in figures]
     values = np.stack([sample.values for sample in samples])
-    drawn = campaign.uncertainty
-    names = quantities(drawn.layout, one_stops=drawn.detection is not None)
+    uncertainty = campaign.uncertainty
+    names = quantities(uncertainty.layout, one_stops=uncertainty.detection is not None)
     return Outcomes(np.array(indices), values, metrics, codes, names)
 
 
@@ -213,7 +215,7 @@ class Case:
     values: Mapping[str, float]
     metrics: Mapping[str, Mapping[str, float | None]]
 
-    def drawn(self, layout: Layout, detection: float | None = None) -> Sample:
+    def to_sample(self, layout: Layout, detection: float | None = None) -> Sample:
         """The sample itself, for a device with this layout; `detection`: see `Uncertainty`.
 
         Raises:
@@ -254,8 +256,10 @@ def metrics_of(outcomes: Outcomes, row: int, scenario: int) -> Metrics | None:
         return None
     upright = bool(values.pop("upright_at_end"))
     times = (values.pop(name) for name in ("touchdown_time", "lift_off_time"))
-    landed, left = (None if np.isnan(time) else time for time in times)
-    return Metrics(upright_at_end=upright, touchdown_time=landed, lift_off_time=left, **values)
+    touchdown, lift_off = (None if np.isnan(time) else time for time in times)
+    return Metrics(
+        upright_at_end=upright, touchdown_time=touchdown, lift_off_time=lift_off, **values
+    )
 
 
 def write_case(case: Case, folder: Path) -> Path:
@@ -299,7 +303,7 @@ def write_results(
     try:
         clear_leftovers(folder / RESULT_FILE)
         with staging_beside(folder / RESULT_FILE) as staging:
-            write_tables(outcomes, [each.maneuver.name for each in campaign.flights], staging)
+            write_tables(outcomes, [flight.maneuver.name for flight in campaign.flights], staging)
             worst = staging / WORST_FOLDER
             worst.mkdir()
             rows = {sample: row for row, sample in enumerate(outcomes.index.tolist())}

@@ -33,42 +33,42 @@ class SequentialTest:
     neither wrong verdict is likelier than that, even if the test is cut short.
 
     Attributes:
-        asked: share of robots that pass all of their maneuvers, between 0 and 1.
+        required: share of robots that pass all of their maneuvers, between 0 and 1.
     """
 
-    asked: float
+    required: float
 
     @property
     def worse(self) -> float:
         """The lower reliability that the test tells from the specified one."""
-        return self.asked / (self.asked + WORSE * (1.0 - self.asked))
+        return self.required / (self.required + WORSE * (1.0 - self.required))
 
     @property
-    def most(self) -> int:
+    def most_flights(self) -> int:
         """Number of flights after which the test gives up."""
-        return ceil(10.0 / (1.0 - self.asked) - 1e-9)
+        return ceil(10.0 / (1.0 - self.required) - 1e-9)
 
-    def found(self, passed: NDArray[np.bool_]) -> tuple[Conclusion | None, int]:
+    def verdict_on(self, passed: NDArray[np.bool_]) -> tuple[Conclusion | None, int]:
         """Verdict on flights in order, None if undecided so far, and how many flights it took.
 
         Args:
             passed: shape (n,).
         """
-        passed = passed[: self.most]
-        better = log(self.asked / self.worse), log((1.0 - self.asked) / (1.0 - self.worse))
+        passed = passed[: self.most_flights]
+        better = log(self.required / self.worse), log((1.0 - self.required) / (1.0 - self.worse))
         evidence = np.cumsum(np.where(passed, *better))
         decided = np.flatnonzero(np.abs(evidence) >= log(1.0 / ERROR))
         if decided.size:
             first = int(decided[0])
             return Conclusion.CERTIFIED if evidence[first] > 0.0 else Conclusion.SHORT, first + 1
-        return Conclusion.UNDECIDED if len(passed) == self.most else None, len(passed)
+        return Conclusion.UNDECIDED if len(passed) == self.most_flights else None, len(passed)
 
     def decided(self, outcomes: Outcomes) -> bool:
         """Whether these outcomes decide the test."""
-        return self.found(outcomes.all_passed)[0] is not None
+        return self.verdict_on(outcomes.all_passed)[0] is not None
 
 
-ROUND = 1 << 20
+ROUND_STRIDE = 1 << 20
 """Samples of a round of `size --certify` begin at its number times this, those of `validate` at 0.
 A sample's index is the spawn key of its generator: no round tests a device on samples that it was
 sized with."""
@@ -90,26 +90,31 @@ def certificate(
         test: to apply. campaign, outcomes: what was flown.
         number: of the round, see `ReliabilityRecord`.
     """
-    finding, count = test.found(outcomes.all_passed)
+    finding, count = test.verdict_on(outcomes.all_passed)
     passed = outcomes.passed[:count]
     names = [flight.maneuver.name for flight in campaign.flights]
-    whole, *each = (share(int(k), count) for k in (passed.all(axis=1).sum(), *passed.sum(axis=0)))
+    total, *by_scenario = (
+        share(int(k), count) for k in (passed.all(axis=1).sum(), *passed.sum(axis=0))
+    )
     return ReliabilityRecord(
-        asked=test.asked,
+        asked=test.required,
         worse=test.worse,
         verdict=finding or Conclusion.UNDECIDED,
         samples=count,
-        whole=whole.passed,
-        whole_interval=(whole.low, whole.high),
-        passed={name: one.passed for name, one in zip(names, each, strict=True)},
-        interval={name: (one.low, one.high) for name, one in zip(names, each, strict=True)},
+        whole=total.passed,
+        whole_interval=(total.low, total.high),
+        passed={name: pass_rate.passed for name, pass_rate in zip(names, by_scenario, strict=True)},
+        interval={
+            name: (pass_rate.low, pass_rate.high)
+            for name, pass_rate in zip(names, by_scenario, strict=True)
+        },
         seed=campaign.seed,
         first=int(outcomes.index[0]),
         round=number,
     )
 
 
-LEAST, LARGEST = 1.1, 2.0
+SMALLEST_RAISE, LARGEST_RAISE = 1.1, 2.0
 """Smallest and largest factor by which a round raises the reserve."""
 
 
@@ -143,32 +148,36 @@ def lesson(test: SequentialTest, campaign: Campaign, outcomes: Outcomes) -> Less
         tilts[:, :, number] = tilt_errors(roll, pitch, flight.maneuver)
         if ends_at_any_attitude(flight.maneuver):
             tilts[:, :, number] = 0.0
-    off = (np.abs(tilts) > LANDING_TOLERANCE).sum(axis=1)
-    axis, number = divmod(int(np.argmax(off)), len(campaign.flights))
-    if not off[axis, number]:
+    off_level = (np.abs(tilts) > LANDING_TOLERANCE).sum(axis=1)
+    axis, number = divmod(int(np.argmax(off_level)), len(campaign.flights))
+    if not off_level[axis, number]:
         return Lesson(1.0, "every touchdown is level: a larger reserve does not help")
     tilt = tilts[axis, :, number]
-    known = np.isfinite(tilt)
-    tilt, values = tilt[known], outcomes.values[known]
+    finite = np.isfinite(tilt)
+    tilt, values = tilt[finite], outcomes.values[finite]
     maneuver = campaign.flights[number].maneuver.name
-    landings = f"{maneuver}: {off[axis, number]} of {len(tilt)} land off level in {names[axis]}"
+    landings = (
+        f"{maneuver}: {off_level[axis, number]} of {len(tilt)} land off level in {names[axis]}"
+    )
     varied = np.flatnonzero(np.ptp(values, axis=0) > 0.0)
     if not varied.size or not np.ptp(tilt):
         return Lesson(1.0, f"{landings}, all alike: a larger reserve does not help")
-    reached = abs(tilt.mean()) + NormalDist().inv_cdf(0.5 * (1.0 + test.asked)) * tilt.std()
+    expected_tilt = (
+        abs(tilt.mean()) + NormalDist().inv_cdf(0.5 * (1.0 + test.required)) * tilt.std()
+    )
     shares = np.corrcoef(values[:, varied], tilt, rowvar=False)[-1, :-1] ** 2
-    part, cause = max(zip(shares.tolist(), (outcomes.names[i] for i in varied), strict=True))
-    factor = float(min(max(reached / LANDING_TOLERANCE, LEAST), LARGEST))
-    ending = f"the reserve is raised by a factor of {factor:.2f}"
+    share, cause = max(zip(shares.tolist(), (outcomes.names[i] for i in varied), strict=True))
+    factor = float(min(max(expected_tilt / LANDING_TOLERANCE, SMALLEST_RAISE), LARGEST_RAISE))
+    advice = f"the reserve is raised by a factor of {factor:.2f}"
     if not campaign.flights[number].world.body.controlled[axis]:
-        factor, ending = 1.0, f"no wheel, however large, turns the robot in {names[axis]}"
+        factor, advice = 1.0, f"no wheel, however large, turns the robot in {names[axis]}"
     elif cause.startswith("attitude_bias"):
         # The law levels the trunk by its sensor, so wheels cannot correct the sensor's bias.
-        factor, ending = 1.0, "a better attitude sensor helps, a larger reserve does not"
+        factor, advice = 1.0, "a better attitude sensor helps, a larger reserve does not"
     quantity = cause.replace("_", " ").replace(".", " ")
     return Lesson(
         factor,
-        f"{landings}; {100.0 * test.asked:.4g}% stay within {np.degrees(reached):.1f} deg "
-        f"({np.degrees(LANDING_TOLERANCE):.0f} deg is allowed), and {part:.0%} of the variance "
-        f"comes from {quantity}: {ending}",
+        f"{landings}; {100.0 * test.required:.4g}% stay within {np.degrees(expected_tilt):.1f} deg "
+        f"({np.degrees(LANDING_TOLERANCE):.0f} deg is allowed), and {share:.0%} of the variance "
+        f"comes from {quantity}: {advice}",
     )

@@ -138,14 +138,14 @@ def write_tables(outcomes: Outcomes, scenarios: Sequence[str], folder: Path) -> 
     """
     samples, count = len(outcomes.index), len(scenarios)
     words = np.array(["pass", *map(str, FAULTS)])
-    drawn = np.repeat(outcomes.values, count, axis=0)
+    sampled_values = np.repeat(outcomes.values, count, axis=0)
     figures = outcomes.metrics.reshape(samples * count, len(METRICS))
     columns: Mapping[str, NDArray[np.generic]] = {
         "sample": np.repeat(outcomes.index, count),
         "scenario": np.tile(np.array(scenarios), samples),
         "verdict": words[outcomes.codes.ravel()],
         **dict(zip(METRICS, figures.T, strict=True)),
-        **dict(zip(outcomes.names, drawn.T, strict=True)),
+        **dict(zip(outcomes.names, sampled_values.T, strict=True)),
     }
     # Numbers to six digits; empty cells for missing ones.
     cells = [
@@ -226,14 +226,14 @@ class Storage:
                     )
             if recorded is not None and recorded != identity:
                 if not force:
-                    differs = [
+                    different = [
                         name
                         for name in recorded.__dataclass_fields__
                         if getattr(recorded, name) != getattr(identity, name)
                     ]
                     raise OutputError(
                         f"{folder}: holds samples of another campaign; these differ: "
-                        f"{', '.join(differs)}",
+                        f"{', '.join(different)}",
                         hint=_HINT,
                     )
                 # Delete the old results first, so that they are never found beside another
@@ -246,7 +246,7 @@ class Storage:
         except OSError as error:
             raise output_error(error, folder) from error
 
-    def found(self, blocks: Sequence[Block]) -> Mapping[Block, Outcomes]:
+    def load_blocks(self, blocks: Sequence[Block]) -> Mapping[Block, Outcomes]:
         """Blocks that have been flown already."""
         kept = {}
         for block in blocks:
@@ -259,7 +259,7 @@ class Storage:
                 kept[block] = outcomes
         return kept
 
-    def keep(self, block: Block, outcomes: Outcomes) -> None:
+    def save_block(self, block: Block, outcomes: Outcomes) -> None:
         """Write a block.
 
         Raises:

@@ -19,11 +19,11 @@ from ocs_design.simulation.simulate import Progress, partial_progress
 
 Arrivals = Generator[tuple[Block, Outcomes], None, None]
 
-Enough: TypeAlias = Callable[[Outcomes], bool]
+StoppingRule: TypeAlias = Callable[[Outcomes], bool]
 """Stopping rule of a campaign: whether the outcomes so far suffice."""
 
 
-def narrow(width: float) -> Enough:
+def narrow(width: float) -> StoppingRule:
     """Stop as soon as the confidence interval of each scenario is no wider than `width`."""
     return lambda outcomes: all(share.width <= width for share in shares(outcomes))
 
@@ -34,10 +34,10 @@ Fly: TypeAlias = Callable[[Campaign, Sequence[Block], Progress], Arrivals]
 It reports progress as the share of all blocks that is done, 0..1.
 """
 
-AT_ONCE = 4
+BLOCKS_AT_ONCE = 4
 """Number of blocks that are flown together if all of them are needed."""
 
-AT_ONCE_ON_DEVICE = 64
+BLOCKS_AT_ONCE_ON_GPU = 64
 """The same number if a GPU steps all worlds together; `MEMORY` also limits it."""
 
 
@@ -56,11 +56,11 @@ def fly_here(
     processor.
     """
     for start in range(0, len(blocks), at_once):
-        some = blocks[start : start + at_once]
-        tell = partial_progress(progress, start / len(blocks), (start + len(some)) / len(blocks))
-        indices = [index for block in some for index in block]
-        flown = fly_samples(campaign, indices, threads=threads, progress=tell)
-        for block in some:
+        group = blocks[start : start + at_once]
+        report = partial_progress(progress, start / len(blocks), (start + len(group)) / len(blocks))
+        indices = [index for block in group for index in block]
+        flown = fly_samples(campaign, indices, threads=threads, progress=report)
+        for block in group:
             yield block, flown.take(np.isin(flown.index, block))
 
 
@@ -70,7 +70,7 @@ def run_campaign(
     *,
     fly: Fly = fly_here,
     storage: Storage | None = None,
-    enough: Enough | None = None,
+    stop_when: StoppingRule | None = None,
     progress: Progress | None = None,
 ) -> Outcomes:
     """Fly blocks until all are flown, or enough is known.
@@ -83,21 +83,21 @@ def run_campaign(
         blocks: of samples, in order.
         fly: flies the blocks.
         storage: keeps blocks as they arrive, and has those flown already; None: nothing is kept.
-        enough: stopping rule; None: all blocks are flown.
+        stop_when: stopping rule; None: all blocks are flown.
         progress: called with the share of the work that is done, 0..1.
     """
-    flown = {} if storage is None else dict(storage.found(blocks))
+    flown = {} if storage is None else dict(storage.load_blocks(blocks))
     missing = [block for block in blocks if block not in flown]
-    tell = partial_progress(progress, len(flown) / len(blocks), 1.0)
+    report = partial_progress(progress, len(flown) / len(blocks), 1.0)
     counted: list[Outcomes] = []
-    with closing(fly(campaign, missing, tell)) as arrivals:
-        for wanted in blocks:
-            while wanted not in flown:
+    with closing(fly(campaign, missing, report)) as arrivals:
+        for next_block in blocks:
+            while next_block not in flown:
                 block, flown[block] = next(arrivals)
                 if storage is not None:
-                    storage.keep(block, flown[block])
-            counted.append(flown[wanted])
-            if enough is not None and enough(so_far := Outcomes.joined(counted)):
+                    storage.save_block(block, flown[block])
+            counted.append(flown[next_block])
+            if stop_when is not None and stop_when(so_far := Outcomes.joined(counted)):
                 return so_far
     return Outcomes.joined(counted)
 

@@ -53,12 +53,12 @@ def attitude_error(outcomes: Outcomes, maneuver: Maneuver, number: int) -> Float
         error = np.maximum(error, np.abs(turned - maneuver.boundary(0.0).angle))
     _, _, heading = landing_attitude(maneuver)
     if heading is not None:
-        off = outcomes.metric("heading_drift")[:, number] - heading
-        error = np.maximum(error, np.abs((off + np.pi) % (2.0 * np.pi) - np.pi))
+        heading_error = outcomes.metric("heading_drift")[:, number] - heading
+        error = np.maximum(error, np.abs((heading_error + np.pi) % (2.0 * np.pi) - np.pi))
     return np.asarray(error)
 
 
-def order(outcomes: Outcomes, maneuver: Maneuver, number: int) -> np.ndarray:
+def severity_ranking(outcomes: Outcomes, maneuver: Maneuver, number: int) -> np.ndarray:
     """Samples from best to worst: passes before failures, each by attitude error, shape (n,)."""
     failed = ~outcomes.passed[:, number]
     error = np.nan_to_num(attitude_error(outcomes, maneuver, number), nan=np.inf)
@@ -70,7 +70,7 @@ def causes(outcomes: Outcomes, ranking: np.ndarray) -> tuple[Cause, ...]:
 
     Args:
         outcomes: of n samples.
-        ranking: from best to worst, see `order`.
+        ranking: from best to worst, see `severity_ranking`.
     """
     n = len(ranking)
     varied = np.ptp(outcomes.values, axis=0) > 0.0
@@ -78,21 +78,23 @@ def causes(outcomes: Outcomes, ranking: np.ndarray) -> tuple[Cause, ...]:
         return ()
     severity = np.empty(n)
     severity[ranking] = np.arange(n)
-    away = np.abs(outcomes.values - np.median(outcomes.values, axis=0))
-    found = np.array([_correlations(outcomes.values, severity), _correlations(away, severity)])
+    distance = np.abs(outcomes.values - np.median(outcomes.values, axis=0))
+    correlations = np.array(
+        [_correlations(outcomes.values, severity), _correlations(distance, severity)]
+    )
     # An outcome that is monotonic in a quantity also correlates with its distance from the median.
-    found[1] *= np.abs(found[1]) > 2.0 * np.abs(found[0])
-    found[:, ~varied] = 0.0
-    strongest = np.abs(found).max(axis=0)
-    telling = np.argsort(-strongest, kind="stable")[:MOST_CAUSES]
-    either = np.argmax(np.abs(found), axis=0)
+    correlations[1] *= np.abs(correlations[1]) > 2.0 * np.abs(correlations[0])
+    correlations[:, ~varied] = 0.0
+    strongest = np.abs(correlations).max(axis=0)
+    strongest_first = np.argsort(-strongest, kind="stable")[:MOST_CAUSES]
+    either = np.argmax(np.abs(correlations), axis=0)
     return tuple(
         Cause(
             quantity=outcomes.names[index],
-            correlation=float(found[either[index], index]),
+            correlation=float(correlations[either[index], index]),
             either_way=bool(either[index]),
         )
-        for index in telling.tolist()
+        for index in strongest_first.tolist()
         if strongest[index] > SIGNIFICANT / np.sqrt(n - 1.0)
     )
 
@@ -106,7 +108,7 @@ def _correlations(values: FloatArray, severity: FloatArray) -> FloatArray:
     return np.asarray((severity - middle) @ (ranks - middle) / spread)
 
 
-_BLIND = 1e-3
+_NO_AUTHORITY = 1e-3
 """Share of its momentum below which a device as good as does not reach an axis."""
 
 
@@ -125,7 +127,7 @@ def advice(outcomes: Outcomes, maneuver: Maneuver, number: int) -> str:
         return ""
     reach = {"roll": sin(maneuver.incidence), "pitch": cos(maneuver.incidence)}
     axis = min(reach, key=lambda name: abs(reach[name]))
-    if abs(reach[axis]) >= _BLIND:
+    if abs(reach[axis]) >= _NO_AUTHORITY:
         return ""
     landed_off = outcomes.codes[:, number] == 1 + FAULTS.index(Fault.LANDING)
     error = np.abs(outcomes.metric(f"touchdown_{axis}")[:, number])
@@ -138,7 +140,7 @@ def advice(outcomes: Outcomes, maneuver: Maneuver, number: int) -> str:
     )
 
 
-TRIED = 8
+MOST_REFLOWN = 8
 """Most level landings with a fall, per scenario, that are flown again."""
 
 
@@ -155,23 +157,26 @@ def standing_advice(campaign: Campaign, outcomes: Outcomes, number: int) -> str:
     if not falls.any():
         return ""
     fell = outcomes.index[falls]
-    worlds = [campaign.built(campaign.sample(index), number) for index in fell[:TRIED].tolist()]
-    stand = {}
-    for words, change in REMEDIES.items():
-        found = fly([change(world) for world in worlds], Options(hold=campaign.hold))
-        judged = [campaign.judged(flight.metrics, number).passed for flight in found]
-        stand[words] = judged.count(True)
-    best = sorted(stand, key=lambda words: -stand[words])
-    text = ", ".join(f"{stand[words]} with {words}" for words in best)
+    worlds = [
+        campaign.sampled_world(campaign.sample(index), number)
+        for index in fell[:MOST_REFLOWN].tolist()
+    ]
+    standing_count = {}
+    for remedy, change in REMEDIES.items():
+        flights = fly([change(world) for world in worlds], Options(hold=campaign.hold))
+        passed = [campaign.judged(flight.metrics, number).passed for flight in flights]
+        standing_count[remedy] = passed.count(True)
+    best = sorted(standing_count, key=lambda remedy: -standing_count[remedy])
+    text = ", ".join(f"{standing_count[remedy]} with {remedy}" for remedy in best)
     roll, pitch = (
         np.abs(outcomes.metric(f"final_{axis}")[falls, number]) for axis in ("roll", "pitch")
     )
     sideways = 2 * np.count_nonzero(roll > pitch) > len(fell)
     way, stance = ("sideways", "wider") if sideways else ("lengthwise", "longer")
-    of = "these" if len(worlds) == len(fell) else f"{len(worlds)} of these"
+    which = "these" if len(worlds) == len(fell) else f"{len(worlds)} of these"
     return (
         f"{len(fell)} land level and then fall {way}, where a {stance} stance would help; when "
-        f"{of} are flown again, {text} stand"
+        f"{which} are flown again, {text} stand"
     )
 
 
@@ -203,15 +208,15 @@ WORST = 3
 """Number of worst cases kept per scenario."""
 
 
-def summarised(campaign: Campaign, outcomes: Outcomes, asked: int) -> MonteCarloRecord:
+def summarise(campaign: Campaign, outcomes: Outcomes, requested: int) -> MonteCarloRecord:
     """Record that summarises these outcomes."""
-    flown, whole = len(outcomes.index), outcomes.all_passed
+    flown, all_passed = len(outcomes.index), outcomes.all_passed
     scenarios = []
     for number, (flight, success) in enumerate(
         zip(campaign.flights, shares(outcomes), strict=True)
     ):
         maneuver, codes = flight.maneuver, outcomes.codes[:, number]
-        ranking = order(outcomes, maneuver, number)
+        ranking = severity_ranking(outcomes, maneuver, number)
         scenarios.append(
             ScenarioSummary(
                 scenario=maneuver.name,
@@ -239,10 +244,10 @@ def summarised(campaign: Campaign, outcomes: Outcomes, asked: int) -> MonteCarlo
     return MonteCarloRecord(
         seed=campaign.seed,
         samples=flown,
-        asked=asked,
+        asked=requested,
         confidence=CONFIDENCE,
         reality=campaign.uncertainty.written(),
-        success=share(int(whole.sum()), flown),
+        success=share(int(all_passed.sum()), flown),
         scenarios=tuple(scenarios),
     )
 

@@ -33,7 +33,7 @@ from ocs_design.simulation.world import World
 KEYS = tuple(spreads())
 
 
-STOPPED, SHARE = STOPS = ("stopped_drive", "stopped_at")
+STOPPED, SHARE = STOP_QUANTITIES = ("stopped_drive", "stopped_at")
 """Number of the drive that stops, from 1, and share of the flight at which it stops."""
 
 
@@ -45,7 +45,7 @@ def quantities(layout: Layout, *, one_stops: bool = False) -> tuple[str, ...]:
     """
     parts = ((key, part) for key in KEYS for part in parts_of(key, layout.names))
     names = tuple(f"{key}.{part}" if part else key for key, part in parts)
-    return (*names, *STOPS) if one_stops else names
+    return (*names, *STOP_QUANTITIES) if one_stops else names
 
 
 @dataclass(frozen=True)
@@ -114,7 +114,7 @@ class Sample:
             for name, part in zip(names, generator.random(len(names)).tolist(), strict=True)
         ]
         if detection is not None:
-            which, when = generator.random(len(STOPS)).tolist()
+            which, when = generator.random(len(STOP_QUANTITIES)).tolist()
             values += [1.0 + int(which * len(uncertainty.layout)), when]
         return cls(seed, index, uncertainty.layout, np.array(values), detection)
 
@@ -136,7 +136,7 @@ class Sample:
         """All parts of each key."""
         counts = {key: len(parts_of(key, self.layout.names)) for key in KEYS}
         if self.detection is not None:
-            counts |= dict.fromkeys(STOPS, 1)
+            counts |= dict.fromkeys(STOP_QUANTITIES, 1)
         parts = np.split(self.values, np.cumsum([*counts.values()])[:-1])
         return dict(zip(counts, parts, strict=True))
 
@@ -161,7 +161,7 @@ PUSH_OFF_END = 5e-3
 """Duration of the push that gives a sample its rate at take-off, once lift-off is certain [s]."""
 
 
-def built(
+def sampled_world(
     world: World,
     sample: Sample,
     flight: int,
@@ -185,11 +185,11 @@ def built(
     """
     model = copy.copy(world.model)
     # The robot's masses only; the device is made and weighed with more care.
-    own = [
+    robot_bodies = [
         index for index in range(1, model.nbody) if not model.body(index).name.startswith(PREFIX)
     ]
-    model.body_mass[own] *= 1.0 + sample.only("mass_error")
-    model.body_inertia[own] *= 1.0 + sample.only("mass_error")
+    model.body_mass[robot_bodies] *= 1.0 + sample.only("mass_error")
+    model.body_inertia[robot_bodies] *= 1.0 + sample.only("mass_error")
     base = quaternions.matrix(world.chain.end)
     _alter_trunk(model, world.addresses.trunk, base, sample)
     feet, errors = base @ sample.layout.feet(world.body.axes), sample.of("incidence_error")

@@ -26,8 +26,8 @@ def bound_by_hand(
     rate = TRUNK_RATE.read(rate_change, "--rate-change")
     speed = WHEEL_RATE.read(wheel_speed_max, "--wheel-speed-max")
     incidence = INCIDENCE.read(alpha, "--alpha")
-    found = spin_bound(moment, rate, speed, float(authority(incidence)[AXES.index(axis)]))
-    if not np.isfinite(found.spin_inertia):
+    spin = spin_bound(moment, rate, speed, float(authority(incidence)[AXES.index(axis)]))
+    if not np.isfinite(spin.spin_inertia):
         raise UsageError(
             f"no wheel can do this about {axis}: at alpha {alpha} and {wheel_speed_max} "
             "it would be infinitely large",
@@ -42,9 +42,9 @@ def bound_by_hand(
         rate_change=rate,
         wheel_speed_max=speed,
         incidence=incidence,
-        paper=found.paper,
-        required=found.required,
-        spin_inertia=found.spin_inertia,
+        paper=spin.paper,
+        required=spin.required,
+        spin_inertia=spin.spin_inertia,
         rate_changes=rates,
         wheel_speeds=speeds,
         curve=tuple(tuple(map(float, row)) for row in bound_curve(rates, speeds)),

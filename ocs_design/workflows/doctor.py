@@ -90,7 +90,7 @@ for name in sys.argv[1:]:
 
 
 @dataclass(frozen=True)
-class Wanted:
+class PackageRequirement:
     """A package that is required or optional.
 
     Attributes:
@@ -117,7 +117,7 @@ class Wanted:
         return install_command(what)
 
 
-def wanted_packages() -> tuple[Wanted, ...]:
+def package_requirements() -> tuple[PackageRequirement, ...]:
     """All packages that users may need, required ones first.
 
     Raises:
@@ -126,47 +126,49 @@ def wanted_packages() -> tuple[Wanted, ...]:
     requirements = [Requirement(line) for line in metadata.requires(DISTRIBUTION) or ()]
     extras = metadata.metadata(DISTRIBUTION).get_all("Provides-Extra") or ()
 
-    def package(requirement: Requirement, extra: str = "") -> Wanted:
-        return Wanted(canonicalize_name(requirement.name), str(requirement.specifier), extra)
+    def package(requirement: Requirement, extra: str = "") -> PackageRequirement:
+        return PackageRequirement(
+            canonicalize_name(requirement.name), str(requirement.specifier), extra
+        )
 
-    required = [package(each) for each in requirements if each.marker is None]
+    required = [package(requirement) for requirement in requirements if requirement.marker is None]
     optional = [
-        package(each, extra)
+        package(requirement, extra)
         for extra in extras
         if extra not in DEVELOPMENT
-        for each in requirements
-        if each.marker is not None and each.marker.evaluate({"extra": extra})
+        for requirement in requirements
+        if requirement.marker is not None and requirement.marker.evaluate({"extra": extra})
     ]
-    return (*sorted(required, key=lambda each: each.name), *optional)
+    return (*sorted(required, key=lambda package: package.name), *optional)
 
 
-def package_findings(wanted: Sequence[Wanted]) -> Iterator[Finding]:
+def package_findings(packages: Sequence[PackageRequirement]) -> Iterator[Finding]:
     """Findings about the packages, each imported in a process of its own."""
-    versions = dict.fromkeys((each.name for each in wanted), "")
+    versions = dict.fromkeys((package.name for package in packages), "")
     for name in versions:
         with suppress(metadata.PackageNotFoundError):
             versions[name] = metadata.version(name)
-    failures = import_failures([each.module for each in wanted if versions[each.name]])
-    for each in wanted:
-        found = versions[each.name]
-        reason = failures.get(each.module, "")
-        allowed = SpecifierSet(each.versions)
-        if not found:
+    failures = import_failures([package.module for package in packages if versions[package.name]])
+    for requirement in packages:
+        installed = versions[requirement.name]
+        reason = failures.get(requirement.module, "")
+        allowed = SpecifierSet(requirement.versions)
+        if not installed:
             state = State.MISSING
         elif reason:
             state = State.BROKEN
         else:
-            fits = allowed.contains(found, prereleases=True)
+            fits = allowed.contains(installed, prereleases=True)
             state = State.WORKS if fits else State.UNFIT
         yield Finding(
-            name=each.name,
+            name=requirement.name,
             state=state,
-            required=not each.extra,
-            found=found,
-            wanted=each.versions,
-            purpose=PURPOSES.get(each.name, f"the extra {each.extra}"),
-            extra=each.extra,
-            cure=each.cure(state),
+            required=not requirement.extra,
+            found=installed,
+            wanted=requirement.versions,
+            purpose=PURPOSES.get(requirement.name, f"the extra {requirement.extra}"),
+            extra=requirement.extra,
+            cure=requirement.cure(state),
             reason=reason,
         )
 
@@ -175,15 +177,15 @@ def import_failures(modules: Sequence[str]) -> Mapping[str, str]:
     """Reason for each module that cannot be imported; others are left out."""
     command = [sys.executable, "-c", _IMPORTING, *modules]
     try:
-        done = subprocess.run(
+        process = subprocess.run(
             command, capture_output=True, text=True, check=False, timeout=TIME_LIMIT
         )
-        said, ended = done.stdout, f"the process ended with code {done.returncode}"
+        printed, fallback = process.stdout, f"the process ended with code {process.returncode}"
     except subprocess.TimeoutExpired as error:
-        said = (error.stdout or b"").decode() if isinstance(error.stdout, bytes) else ""
-        ended = f"not done within {TIME_LIMIT:g} s"
-    answers = dict(json.loads(line) for line in said.splitlines())
-    return {name: answers.get(name, ended) for name in modules if answers.get(name, ended)}
+        printed = (error.stdout or b"").decode() if isinstance(error.stdout, bytes) else ""
+        fallback = f"not done within {TIME_LIMIT:g} s"
+    answers = dict(json.loads(line) for line in printed.splitlines())
+    return {name: answers.get(name, fallback) for name in modules if answers.get(name, fallback)}
 
 
 def python() -> Finding:
@@ -233,13 +235,13 @@ def processors() -> Finding:
 
 def opengl() -> Iterator[Finding]:
     """Findings about each way to render without a screen; one is enough."""
-    ways = backends()
+    tried_backends = backends()
     with ThreadPoolExecutor() as pool:
-        failures = list(pool.map(partial(failure_of, ("trial",)), ways))
+        failures = list(pool.map(partial(failure_of, ("trial",)), tried_backends))
     one_works = None in failures
-    for way, failure in zip(ways, failures, strict=True):
+    for backend, failure in zip(tried_backends, failures, strict=True):
         yield Finding(
-            name=f"OpenGL {way}".rstrip(),
+            name=f"OpenGL {backend}".rstrip(),
             state=State.WORKS if failure is None else State.MISSING,
             purpose="pictures, one way is enough",
             cure="" if one_works else OPENGL_HINT,
@@ -247,23 +249,23 @@ def opengl() -> Iterator[Finding]:
         )
 
 
-def film_maker() -> Finding:
+def ffmpeg() -> Finding:
     """Finding about ffmpeg, which makes videos."""
-    path, found = ffmpeg_program(), ""
+    path, installed = ffmpeg_program(), ""
     if path is not None:
         # An ffmpeg that does not run counts as missing.
         with suppress(OSError, subprocess.SubprocessError):
-            said = subprocess.run(
+            words = subprocess.run(
                 [path, "-version"], capture_output=True, text=True, check=True, timeout=20.0
             ).stdout.split()
             # "ffmpeg version 6.1.1-3 Copyright ..."
-            found = said[2].partition("-")[0] if len(said) > 2 else "unknown"
+            installed = words[2].partition("-")[0] if len(words) > 2 else "unknown"
     return Finding(
         name="ffmpeg",
-        state=State.WORKS if found else State.MISSING,
-        found=found,
+        state=State.WORKS if installed else State.MISSING,
+        found=installed,
         purpose="videos",
-        cure="" if found else FFMPEG_HINT,
+        cure="" if installed else FFMPEG_HINT,
     )
 
 
@@ -290,15 +292,15 @@ def examine() -> Examination:
         MissingToolError: this program is not installed as a package, which lists its needs.
     """
     try:
-        wanted = wanted_packages()
+        requirements = package_requirements()
     except metadata.PackageNotFoundError as error:
         raise MissingToolError(
             f"{DISTRIBUTION} runs from its source and is not installed: its needs are unknown",
             hint="pip install .",
         ) from error
-    folder, packages = working_folder(Path.cwd()), tuple(package_findings(wanted))
+    folder, packages = working_folder(Path.cwd()), tuple(package_findings(requirements))
     # In the order in which they matter.
-    machine = (python(), folder, processors(), *opengl(), film_maker(), compiler())
+    machine = (python(), folder, processors(), *opengl(), ffmpeg(), compiler())
     return Examination(metadata.version(DISTRIBUTION), machine, packages)
 
 

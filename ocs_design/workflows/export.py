@@ -27,10 +27,10 @@ from ocs_design.export.formats import (
 )
 from ocs_design.report.text.console import ProgressCallback, Steps
 from ocs_design.workflows.restoring import (
-    Whereabouts,
+    RobotLocation,
+    base_of,
     read_designed,
     read_recorded_robot,
-    seat_of,
 )
 
 if TYPE_CHECKING:
@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 
 _WHERE = (
     "say where it is with --robot FILE, or leave out the robot's files: "
-    f"--formats {','.join(each.name for each in USUAL_FORMATS if not each.needs_robot)}"
+    f"--formats {','.join(kind.name for kind in USUAL_FORMATS if not kind.needs_robot)}"
 )
 
 FIGURES, REPORT, CONTROLLER = "figures", "report", "controller"
@@ -82,71 +82,71 @@ def export_design(
     steps, named = Steps.of(progress), (formats,) if isinstance(formats, str) else formats
     names = tuple(name.casefold() for name in named)
     chosen = formats_named(names, ON_DESIGN)
-    rest = [name for name in ON_DESIGN if name in names or ALL in names]
+    design_outputs = [name for name in ON_DESIGN if name in names or ALL in names]
     with steps.step("read the design and its robot") as step:
         path = design_file(design)
-        known, device = read_designed(path)
-        name = safe_name(known.robot.name)
-        where = Whereabouts(path, robot_file, package_paths or {}, _WHERE)
-        subject = Subject(name, device, base=seat_of(known.robot))
+        recorded_design, device = read_designed(path)
+        name = safe_name(recorded_design.robot.name)
+        location = RobotLocation(path, robot_file, package_paths or {}, _WHERE)
+        subject = Subject(name, device, base=base_of(recorded_design.robot))
         warnings: tuple[str, ...] = ()
-        if any(each.needs_robot for each in chosen):
-            robot, warnings = read_recorded_robot(known.robot, where, strict=strict)
+        if any(file_format.needs_robot for file_format in chosen):
+            robot, warnings = read_recorded_robot(recorded_design.robot, location, strict=strict)
             subject = Subject.of(robot, device, name)
-        subject = subject.recorded(known)
+        subject = subject.recorded(recorded_design)
         step.note = name
     folder = Path(out or f"{name}-ocs-export")
     with (
-        steps.step(f"write {', '.join(names or (each.name for each in chosen))}"),
+        steps.step(f"write {', '.join(names or (kind.name for kind in chosen))}"),
         staged_folder(folder, force=force) as staging,
     ):
         notes, remarks = (
             export_formats(subject, [x for x in chosen if x.needs_robot is needs], staging)
             for needs in (False, True)
         )
-        if CONTROLLER in rest:
+        if CONTROLLER in design_outputs:
             try:
-                _write_controller(name, where, staging / CONTROLLER)
+                _write_controller(name, location, staging / CONTROLLER)
             except OcsError as error:
                 if CONTROLLER in names:
                     raise
                 remarks = (*remarks, f"without the controller: {error.message}")
         story = None
-        if set(rest) - {CONTROLLER}:
+        if set(design_outputs) - {CONTROLLER}:
             # They need the simulator's values, which parts and snippets do not.
             from ocs_design.report.charts.figures import FOLDER, all_charts  # noqa: PLC0415
             from ocs_design.report.charts.svg import write_charts  # noqa: PLC0415
             from ocs_design.report.html.page import write_report  # noqa: PLC0415
 
-            story, more = _read_story(known, where, staging, command)
-            remarks += more
-            if FIGURES in rest:
+            story, story_remarks = _read_story(recorded_design, location, staging, command)
+            remarks += story_remarks
+            if FIGURES in design_outputs:
                 remarks += write_charts(tuple(all_charts(story)), staging / FOLDER)
         new = set(file_hashes(staging))
         if folder.exists() and folder.samefile(path.parent):
             # If all usual files are written again, earlier ones may have had other names.
             usual = set(USUAL_FORMATS) <= set(chosen)
-            folders = {each.folder for each in FORMATS} if usual else set()
-            old = {file for file in known.files if file.partition("/")[0] in folders}
+            folders = {file_format.folder for file_format in FORMATS} if usual else set()
+            old = {file for file in recorded_design.files if file.partition("/")[0] in folders}
             keep_others(path.parent, staging, without=old)
         # All other files exist now: the report, which contains the design, has their hashes.
-        again = replace(known, files=recorded_hashes(staging))
-        if story is not None and REPORT in rest:
-            write_report(replace(story, design=again), staging)
+        updated = replace(recorded_design, files=recorded_hashes(staging))
+        if story is not None and REPORT in design_outputs:
+            write_report(replace(story, design=updated), staging)
             new.add(REPORT_FILE)
-        made = {name: value for name, value in file_hashes(staging).items() if name in new}
-        (staging / DESIGN_FILE).write_bytes(to_json(again))
-    recorded = known.robot.warnings
+        hashes = {name: value for name, value in file_hashes(staging).items() if name in new}
+        (staging / DESIGN_FILE).write_bytes(to_json(updated))
+    recorded = recorded_design.robot.warnings
     return Exported(
         folder=str(folder),
-        files=made,
+        files=hashes,
         warnings=(*warnings, *(remark for remark in remarks if remark not in recorded)),
         notes=notes,
     )
 
 
 def _read_story(
-    design: OcsDesign, where: Whereabouts, folder: Path, command: str
+    design: OcsDesign, location: RobotLocation, folder: Path, command: str
 ) -> tuple["Story", tuple[str, ...]]:
     """Content of charts and report, and remarks.
 
@@ -158,15 +158,15 @@ def _read_story(
     postures: tuple[PostureLine, ...] = ()
     remarks: tuple[str, ...] = ()
     try:
-        robot, _ = read_recorded_robot(design.robot, where, strict=False)
+        robot, _ = read_recorded_robot(design.robot, location, strict=False)
         postures = posture_lines(robot)
     except OcsError as error:
         remarks = (f"without the chart of incidence over postures: {error.message}",)
-    folders = [folder, where.design.parent]
+    folders = [folder, location.design.parent]
     return story_in(folders, design, postures=postures, command=command), remarks
 
 
-def _write_controller(name: str, where: Whereabouts, folder: Path) -> None:
+def _write_controller(name: str, location: RobotLocation, folder: Path) -> None:
     """Write wheel law and plans of the design's flights in C, in files named after the robot.
 
     Raises:
@@ -180,16 +180,16 @@ def _write_controller(name: str, where: Whereabouts, folder: Path) -> None:
 
     # The wheels' controller does not depend on how the legs push off.
     flights = read_flights(
-        where.design,
+        location.design,
         Specification(validation=ValidationSection(ballistic=True)),
-        robot_file=where.robot_file,
-        package_paths=where.package_paths,
+        robot_file=location.robot_file,
+        package_paths=location.package_paths,
     )
     delay = flights.uncertainty.torque_delay
     folder.mkdir()
     write_controller(
         name,
-        {each.name: flights.device_world(each) for each in flights.maneuvers},
+        {maneuver.name: flights.device_world(maneuver) for maneuver in flights.maneuvers},
         folder,
         joints=joint_names(flights.device),
         period=flights.control.period,

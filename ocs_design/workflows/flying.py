@@ -29,7 +29,7 @@ from ocs_design.simulation.scenario import Flights, fly_stopped, refusal, run_sc
 from ocs_design.simulation.world_builder import Options, control_of, overridden
 from ocs_design.sizing.trajectory.motion import Trajectory
 from ocs_design.workflows.restoring import (
-    Whereabouts,
+    RobotLocation,
     read_designed,
     read_recorded_robot,
 )
@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from ocs_design.sizing.trajectory.plans import Reference
 
 
-def planned(
+def planned_turns(
     robot: Robot,
     device: Device,
     maneuvers: Sequence[Maneuver],
@@ -63,9 +63,9 @@ def planned(
 def trajectories(plans: Mapping[str, "Reference"]) -> Mapping[str, Trajectory]:
     """Trajectories that flights track; other maneuvers use feedback or a smooth turn."""
     return {
-        name: planned.trajectory
-        for name, planned in plans.items()
-        if planned.trajectory is not None
+        name: reference.trajectory
+        for name, reference in plans.items()
+        if reference.trajectory is not None
     }
 
 
@@ -92,9 +92,11 @@ class PlannedFlights(Flights):
         if self.detection is None:
             return None
         with steps.step("fly with each drive failing in turn") as step:
-            found = fly_stopped(self, self.detection, step.update)
-            step.note = f"{len(found.lost)} of {len(found.flights)} do not land within tolerance"
-        return found
+            survival = fly_stopped(self, self.detection, step.update)
+            step.note = (
+                f"{len(survival.lost)} of {len(survival.flights)} do not land within tolerance"
+            )
+        return survival
 
     def campaign(
         self, runs: Iterable[Run | ValidationRecord], specified: UncertaintySection, seed: int
@@ -109,9 +111,9 @@ class PlannedFlights(Flights):
         Raises:
             OcsError: no flight of this robot can be judged.
         """
-        if unclear := refusal(self.robot):
+        if objection := refusal(self.robot):
             hint = "name a link of the trunk whose z axis points up with --trunk"
-            raise OcsError(unclear, hint=hint)
+            raise OcsError(objection, hint=hint)
         uncertainty = Uncertainty.of(specified, self.robot, self.device, self.detection)
         can_stand = [run.can_stand for run in runs if run.ocs]
         return make_campaign(self, can_stand=can_stand, uncertainty=uncertainty, seed=seed)
@@ -165,14 +167,16 @@ def read_flights(
     if specified.reality.file is not None:
         # An unreadable file is reported even if nothing is sampled.
         entries(Path(specified.reality.file))
-    maneuvers = tuple(each.maneuver() for each in design.requirement.maneuvers)
+    maneuvers = tuple(record.maneuver() for record in design.requirement.maneuvers)
     if not maneuvers:
         raise OcsError(
             f"{path}: the design was sized without a maneuver, so there is nothing to fly",
             hint="size it with maneuvers: the paper's, or [[maneuver]] tables",
         )
-    where = Whereabouts(path, robot_file, package_paths or {}, "say where it is with --robot FILE")
-    robot, warnings = read_recorded_robot(design.robot, where, strict=strict)
+    location = RobotLocation(
+        path, robot_file, package_paths or {}, "say where it is with --robot FILE"
+    )
+    robot, warnings = read_recorded_robot(design.robot, location, strict=strict)
     control = overridden(
         design.control or control_of(ValidationSection(), robot), specified.validation
     )
@@ -181,7 +185,7 @@ def read_flights(
         # A plan is a few hundred numbers that follow from the design, so it is computed again.
         stops = design.requirement.detection is not None
         kept = design.selection.kept
-        references = trajectories(planned(robot, device, maneuvers, kept, one_stops=stops))
+        references = trajectories(planned_turns(robot, device, maneuvers, kept, one_stops=stops))
     jumps: Mapping[str, JumpPlans] = {}
     if not control.ballistic:
         # It takes a third of a second to import, and flights that start at lift-off do not need it.

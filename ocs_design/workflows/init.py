@@ -60,8 +60,8 @@ def read_start(
     Raises:
         OcsError: see `read_specified_robot`.
     """
-    own = specified.robot
-    given = (own.file, own.mass, own.inertia, own.human)
+    robot_section = specified.robot
+    given = (robot_section.file, robot_section.mass, robot_section.inertia, robot_section.human)
     robot = (
         read_specified_robot(specified, package_paths=package_paths, strict=strict)
         if any(item is not None for item in given)
@@ -104,11 +104,11 @@ def write_start(
     named = ["ROBOT"] if start.robot is None else []
     packages = [f"--package-path={name}={path}" for name, path in (package_paths or {}).items()]
     command = shlex.join(["ocs-design", "size", *named, "--spec", str(file), *packages])
-    whose = "a device" if start.robot is None else f"the device of {start.robot.name}"
+    subject = "a device" if start.robot is None else f"the device of {start.robot.name}"
     text = commented_toml(
         with_files_from(start.specified, file.parent),
         start.default,
-        title=f"What {whose} must do and may be.\n\n  {command}",
+        title=f"What {subject} must do and may be.\n\n  {command}",
         chosen=chosen,
         examples=start.examples,
     )

@@ -45,15 +45,15 @@ def inspect_robot(
         if robot.recognition is None:
             raise UsageError("there is nothing to draw without a file", hint="leave out --picture")
         # As recognised or, if that is not certain, in its likeliest reading.
-        asked = robot.recognition.likely
-        shown = asked[0] if asked else robot.recognition.reading
+        readings = robot.recognition.likely
+        shown = readings[0] if readings else robot.recognition.reading
         words = [
             f"{robot.name}: trunk {shown.trunk}, {len(shown.legs)} legs, "
             f"confidence {shown.confidence:.0%}, posture {robot.posture_name}",
-            *(f"or {each.options} ({each.confidence:.0%})" for each in asked[1:]),
+            *(f"or {reading.options} ({reading.confidence:.0%})" for reading in readings[1:]),
         ]
-        drawn = stick_figure(robot, shown.legs, words)
-        content = drawn if picture.suffix.lower() == ".svg" else png_of(drawn)
+        svg = stick_figure(robot, shown.legs, words)
+        content = svg if picture.suffix.lower() == ".svg" else png_of(svg)
         write_whole(picture, content, force=True)
     return Inspection(
         robot=RobotRecord.of(robot),

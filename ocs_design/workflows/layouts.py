@@ -41,9 +41,9 @@ def compare_layouts(
     robot = read_specified_robot(specified, package_paths=package_paths, strict=strict)
     answers = []
     for layout in LAYOUTS:
-        asked = replace(specified, ocs=replace(specified.ocs, layout=layout))
+        varied = replace(specified, ocs=replace(specified.ocs, layout=layout))
         with steps.step(f"size {layout}") as step:
-            task = Task.of(asked, robot)
+            task = Task.of(varied, robot)
             try:
                 designed = design_device(task, ranked=False)
             except Infeasible as error:

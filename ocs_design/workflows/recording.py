@@ -73,7 +73,9 @@ def record_selection(choice: DriveChoice, kept: ReserveRecord | None = None) -> 
             )
             for entry in selection.ranking
         ),
-        rejections=tuple(recorded(RejectionRecord, each) for each in selection.rejections),
+        rejections=tuple(
+            recorded(RejectionRecord, rejection) for rejection in selection.rejections
+        ),
         co_design=choice.co_design,
         prices=tuple(mass_prices(problem, selection.best)),
         kept=kept,
@@ -106,17 +108,17 @@ def write_runs(runs: Sequence[Run], folder: Path, survival: SurvivalRecord | Non
             writer.writerow(
                 ("scenario", "drive", "stopped_s", "known_s", "lands", "off_rad", "reason")
             )
-            for each in survival.flights:
-                known = each.instant + survival.detection
+            for flight in survival.flights:
+                detected = flight.instant + survival.detection
                 writer.writerow(
                     (
-                        each.scenario,
-                        each.module,
-                        f"{each.instant:.6g}",
-                        f"{known:.6g}",
-                        "" if each.lands is None else str(each.lands).lower(),
-                        "" if each.tilt is None else f"{each.tilt:.6g}",
-                        each.reason,
+                        flight.scenario,
+                        flight.module,
+                        f"{flight.instant:.6g}",
+                        f"{detected:.6g}",
+                        "" if flight.lands is None else str(flight.lands).lower(),
+                        "" if flight.tilt is None else f"{flight.tilt:.6g}",
+                        flight.reason,
                     )
                 )
 
@@ -153,7 +155,7 @@ def record_design(
             maneuvers=tuple(map(ManeuverRecord.of, requirement.maneuvers)),
             rate_change=requirement.rate_change,
             wheel_speed_max=speed,
-            required_inertia=AxisInertia.of([each.momentum for each in sized.demands], speed),
+            required_inertia=AxisInertia.of([demand.momentum for demand in sized.demands], speed),
             spin_inertia_by_hand=requirement.spin_inertia,
             demands=tuple(
                 recorded(
@@ -185,8 +187,10 @@ def record_design(
             total_inertia=matrix(total.inertia),
             total_com=vector(total.com),
             modules=tuple(
-                ModuleRecord(name=each.name, axis=vector(each.axis), position=vector(each.position))
-                for each in device.modules
+                ModuleRecord(
+                    name=module.name, axis=vector(module.axis), position=vector(module.position)
+                )
+                for module in device.modules
             ),
             layout=device.layout.name,
             clearance=None if mounting is None else mounting.nearest,
@@ -200,7 +204,7 @@ def record_design(
             else recorded(
                 MountingRecord,
                 mounting,
-                reachable=tuple(recorded(ReachRecord, each) for each in mounting.reachable),
+                reachable=tuple(recorded(ReachRecord, reach) for reach in mounting.reachable),
                 com_shift=vector(mounting.com_shift),
                 inertia_change=vector(mounting.inertia_change),
             ),

@@ -42,7 +42,7 @@ def read_designed(path: AnyPath) -> tuple[OcsDesign, Device]:
     return design, device
 
 
-def seat_of(record: RobotRecord) -> Base:
+def base_of(record: RobotRecord) -> Base:
     """Base of the device on its robot."""
     mount = record.mount
     if mount is None:
@@ -83,11 +83,11 @@ def robot_of(record: RobotRecord, path: AnyPath, package_paths: Mapping[str, Any
         )
     values = robot.tree.complete(record.posture)
     # Warnings about the file's zero do not apply to the posture used for sizing.
-    inside = (each for each in robot.warnings if not each.startswith(OUTSIDE))
-    beyond = (each for each in record.warnings if each.startswith(OUTSIDE))
+    of_file = (warning for warning in robot.warnings if not warning.startswith(OUTSIDE))
+    of_posture = (warning for warning in record.warnings if warning.startswith(OUTSIDE))
     return replace(
         robot,
-        warnings=(*inside, *beyond),
+        warnings=(*of_file, *of_posture),
         posture=values,
         posture_name=record.posture_name,
         standing_height=record.standing_height,
@@ -95,12 +95,12 @@ def robot_of(record: RobotRecord, path: AnyPath, package_paths: Mapping[str, Any
     )
 
 
-_SAME = 1e-6
+_INERTIA_TOLERANCE = 1e-6
 """Tolerance of mass and inertia, over the largest figure, for a robot to be the same."""
 
 
 @dataclass(frozen=True)
-class Whereabouts:
+class RobotLocation:
     """Places to look for a robot, and the hint if it is not found.
 
     Attributes:
@@ -118,46 +118,46 @@ class Whereabouts:
 
 
 def read_recorded_robot(
-    record: RobotRecord, where: Whereabouts, *, strict: bool
+    record: RobotRecord, location: RobotLocation, *, strict: bool
 ) -> tuple[Robot, tuple[str, ...]]:
     """The robot, and warnings about it that did not occur when the device was sized.
 
     Raises:
         RobotError: it is not available or has changed; with `strict`, also if there is a warning.
     """
-    bases = (Path(), where.design.absolute().parent.parent)
+    bases = (Path(), location.design.absolute().parent.parent)
     # Each folder as it was given, relative to the first base that contains it.
     folders = {
         name: next((base / text for base in bases if (base / text).is_dir()), Path(text))
         for name, text in record.package_paths.items()
     }
-    source = where.robot_file
+    source = location.robot_file
     if source is None and record.format == RobotFormat.MANUAL:
         source = Path(record.source)
     elif source is None:
         if record.source == STANDARD_INPUT:
-            raise RobotError("the robot was read from standard input", hint=where.hint)
-        found = [base / record.source for base in bases if (base / record.source).is_file()]
-        if not found:
+            raise RobotError("the robot was read from standard input", hint=location.hint)
+        existing = [base / record.source for base in bases if (base / record.source).is_file()]
+        if not existing:
             what = f"{record.source}: the robot's file no longer exists"
-            raise RobotError(what, hint=where.hint)
+            raise RobotError(what, hint=location.hint)
         # The file that the device was sized for, unchanged.
-        unchanged = (path for path in found if read_source(path).sha256 == record.sha256)
+        unchanged = (path for path in existing if read_source(path).sha256 == record.sha256)
         source = next(unchanged, None)
         if source is None:
             raise RobotError(
-                f"{found[0]}: the robot's file has changed since the device was sized for it",
-                hint=f"size it again, or use the file as it is now with --robot {found[0]}",
+                f"{existing[0]}: the robot's file has changed since the device was sized for it",
+                hint=f"size it again, or use the file as it is now with --robot {existing[0]}",
             )
-    robot = robot_of(record, source, {**folders, **where.package_paths})
+    robot = robot_of(record, source, {**folders, **location.package_paths})
     warnings = tuple(warning for warning in robot.warnings if warning not in record.warnings)
     inertia = np.array(record.inertia)
-    apart = np.abs(robot.inertia - inertia).max() / np.abs(inertia).max()
+    difference = np.abs(robot.inertia - inertia).max() / np.abs(inertia).max()
     masses = f"mass {robot.mass:.4g} kg, then {record.mass:.4g} kg"
     if robot.sha256 != record.sha256:
         changed = f"{robot.source}: not the file that the device was sized for; {masses}"
         warnings = (changed, *warnings)
-    elif max(apart, abs(robot.mass / record.mass - 1.0)) > _SAME:
+    elif max(difference, abs(robot.mass / record.mass - 1.0)) > _INERTIA_TOLERANCE:
         # The hash covers the robot's own file only.
         raise RobotError(
             f"{robot.source}: a file that it includes has changed since the device was sized for "

@@ -15,10 +15,16 @@ from ocs_design.device.checks import device_warnings
 from ocs_design.device.records.flights import Conclusion, SurvivalRecord
 from ocs_design.jumping.jump import JumpPlans
 from ocs_design.monte_carlo.campaign import Campaign, write_results
-from ocs_design.monte_carlo.certificate import ROUND, ROUNDS, SequentialTest, certificate, lesson
+from ocs_design.monte_carlo.certificate import (
+    ROUND_STRIDE,
+    ROUNDS,
+    SequentialTest,
+    certificate,
+    lesson,
+)
 from ocs_design.monte_carlo.outcomes import Outcomes, blocks_of
 from ocs_design.monte_carlo.running import run_campaign
-from ocs_design.monte_carlo.summary import summarised
+from ocs_design.monte_carlo.summary import summarise
 from ocs_design.report.text.console import Steps
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.resolving import Resolved
@@ -53,7 +59,7 @@ from ocs_design.sizing.sized import Designed
 from ocs_design.sizing.specified import CannotSurvive
 from ocs_design.workflows.flying import (
     PlannedFlights,
-    planned,
+    planned_turns,
     trajectories,
 )
 
@@ -85,7 +91,7 @@ class Placed:
     estimates: Mapping[str, float] = field(default_factory=dict)
     taken: tuple[tuple[str, ...], tuple[str, ...]] = ((), ())
 
-    def telling(self, taken: tuple[tuple[str, ...], tuple[str, ...]]) -> "Placed":
+    def with_substitutions(self, taken: tuple[tuple[str, ...], tuple[str, ...]]) -> "Placed":
         """This device, with these assumptions and warnings before its own."""
         assumptions, warnings = taken
         resolved = replace(self.resolved, assumptions=(*assumptions, *self.resolved.assumptions))
@@ -193,10 +199,12 @@ def size_or_advise(
         Infeasible: no attempt gives a device; with the smallest changes that would.
         SpecificationError: `strict`, and there is a warning about the final device.
     """
-    best, tried = _lightest_of(attempts(specification), specification, robot, steps)
+    best, tried = _lightest_attempt(attempts(specification), specification, robot, steps)
     if best is None:
-        best, again = _lightest_of(less_sure(specification, tried), specification, robot, steps)
-        tried += again
+        best, tried_again = _lightest_attempt(
+            less_sure(specification, tried), specification, robot, steps
+        )
+        tried += tried_again
     if best is not None:
         if strict:
             try:
@@ -204,14 +212,14 @@ def size_or_advise(
             except SpecificationError:
                 best.cancel()
                 raise
-        return best.telling(substitutions(specification, best.specification, tried))
+        return best.with_substitutions(substitutions(specification, best.specification, tried))
     refusal = closest_refusal(tried, robot.mass)
     with steps.step("search for the smallest changes that make it feasible") as step:
-        found = advised(refusal, specification, tried, step.update)
-    raise found
+        advised_refusal = advised(refusal, specification, tried, step.update)
+    raise advised_refusal
 
 
-def _lightest_of(
+def _lightest_attempt(
     in_turn: Iterable[Specification], specification: Specification, robot: Robot, steps: Steps
 ) -> tuple[Placed | None, list[Attempt]]:
     """The device of the first attempt that gives one, or of more wheels that are lighter.
@@ -221,17 +229,20 @@ def _lightest_of(
     """
     tried: list[Attempt] = []
     best: Placed | None = None
-    for asked in in_turn:
+    for attempt in in_turn:
         if best is not None:
-            of_best = best.specification
-            if asked.ocs.layout == of_best.ocs.layout or asked.requirement != of_best.requirement:
+            best_specification = best.specification
+            if (
+                attempt.ocs.layout == best_specification.ocs.layout
+                or attempt.requirement != best_specification.requirement
+            ):
                 continue
-        with steps.step(f"size {attempt_text(specification, asked)}") as step:
+        with steps.step(f"size {attempt_text(specification, attempt)}") as step:
             try:
                 # A device that is replaced by a lighter one need not be free of warnings.
-                placed = size_on_robot(asked, robot, strict=False)
+                placed = size_on_robot(attempt, robot, strict=False)
             except (Refused, NeverHeld) as error:
-                tried.append(Attempt.refused(asked, error))
+                tried.append(Attempt.refused(attempt, error))
                 step.note = "nothing meets the specification"
                 continue
             except CannotSurvive as error:
@@ -244,7 +255,9 @@ def _lightest_of(
         if best is None:
             best = placed
         else:
-            best, heavier = sorted((best, placed), key=lambda each: each.designed.device.mass)
+            best, heavier = sorted(
+                (best, placed), key=lambda candidate: candidate.designed.device.mass
+            )
             tried.append(Attempt.outweighed(heavier.specification, heavier.designed.device))
             heavier.cancel()
         if best is not placed or not more_wheels_may_do(best.designed.device, robot.mass):
@@ -259,9 +272,9 @@ TURN_ROUNDS = 3
 def size_for_turns(placed: Placed, steps: Steps, *, strict: bool) -> Placed:
     """Resize the device for turns that need too much of it, or take too long."""
     for _ in range(TURN_ROUNDS):
-        asked = placed.resolved.requirement.maneuvers
+        maneuvers = placed.resolved.requirement.maneuvers
         estimates = dict(placed.estimates)
-        turns = {each.name: each for each in asked if each.estimated}
+        turns = {maneuver.name: maneuver for maneuver in maneuvers if maneuver.estimated}
         for name, reference in references_of(placed, list(turns.values())).items():
             factor = reference.missing_demand(turns[name].end)
             if factor is not None:
@@ -270,13 +283,13 @@ def size_for_turns(placed: Placed, steps: Steps, *, strict: bool) -> Placed:
             break
         with steps.step("resize the device for its turns") as step:
             try:
-                again = size_on_robot(
+                resized = size_on_robot(
                     placed.specification, placed.robot, strict=strict, estimates=estimates
                 )
             except (Refused, NeverHeld):
                 step.note = "no device makes them in time"
                 break
-        placed = again.telling(placed.taken)
+        placed = resized.with_substitutions(placed.taken)
     return placed
 
 
@@ -286,7 +299,7 @@ def references_of(placed: Placed, maneuvers: Sequence[Maneuver]) -> Mapping[str,
         return {}
     robot, designed = placed.robot, placed.designed
     stops = placed.resolved.requirement.detection is not None
-    return planned(robot, designed.device, maneuvers, designed.kept, one_stops=stops)
+    return planned_turns(robot, designed.device, maneuvers, designed.kept, one_stops=stops)
 
 
 def turns_not_made(placed: Placed, references: Mapping[str, "Reference"]) -> Iterator[str]:
@@ -313,9 +326,9 @@ class Certificate:
         Args:
             folder: an existing one. design: hash of the flown design (`flown_hash`).
         """
-        own = folder / CERTIFICATE_FOLDER
-        own.mkdir()
-        write_results(self.campaign, self.outcomes, self.record, own, design=design)
+        subfolder = folder / CERTIFICATE_FOLDER
+        subfolder.mkdir()
+        write_results(self.campaign, self.outcomes, self.record, subfolder, design=design)
 
 
 @dataclass(frozen=True, eq=False)
@@ -344,8 +357,8 @@ def prove(placed: Placed, specified: ValidationSection, steps: Steps) -> Proof:
     if specified.enabled is not False:
         with steps.step("plan the jumps") as step:
             jumps = {} if placed.jumping is None else dict(placed.jumping.plans())
-            others = [name for name, jump in jumps.items() if jump.carrying.legs is None]
-            step.note = f"starting at lift-off: {', '.join(others)}" if others else ""
+            not_planned = [name for name, jump in jumps.items() if jump.carrying.legs is None]
+            step.note = f"starting at lift-off: {', '.join(not_planned)}" if not_planned else ""
     control = control_of(specified, placed.robot)
     flights = PlannedFlights(
         placed.robot,
@@ -390,35 +403,37 @@ def certify(placed: Placed, proof: Proof, steps: Steps, *, strict: bool) -> tupl
         with steps.step(f"fly the certificate, round {number}") as step:
             flown = run_campaign(
                 campaign,
-                blocks_of(test.most, first=number * ROUND),
-                enough=test.decided,
+                blocks_of(test.most_flights, first=number * ROUND_STRIDE),
+                stop_when=test.decided,
                 progress=step.update,
             )
-            found = certificate(test, campaign, flown, number=number)
-            step.note = f"{found.verdict}, {found.whole:,} of {found.samples:,} pass"
-        reserve, learnt = placed.designed.reserve, None
-        if found.verdict == Conclusion.SHORT and number < ROUNDS and reserve is not None:
-            learnt = lesson(test, campaign, flown)
-            rounds.append(f"round {number}: {step.note}; {learnt.observation}")
-        outcomes = flown.take(slice(found.samples))
-        found = replace(found, rounds=tuple(rounds))
-        record = replace(summarised(campaign, outcomes, test.most), certificate=found)
+            reliability = certificate(test, campaign, flown, number=number)
+            step.note = (
+                f"{reliability.verdict}, {reliability.whole:,} of {reliability.samples:,} pass"
+            )
+        reserve, conclusion = placed.designed.reserve, None
+        if reliability.verdict == Conclusion.SHORT and number < ROUNDS and reserve is not None:
+            conclusion = lesson(test, campaign, flown)
+            rounds.append(f"round {number}: {step.note}; {conclusion.observation}")
+        outcomes = flown.take(slice(reliability.samples))
+        reliability = replace(reliability, rounds=tuple(rounds))
+        record = replace(summarise(campaign, outcomes, test.most_flights), certificate=reliability)
         proof = replace(proof, certificate=Certificate(campaign, outcomes, record))
-        if reserve is None or learnt is None or learnt.factor == 1.0:
+        if reserve is None or conclusion is None or conclusion.factor == 1.0:
             break
         with steps.step("resize the device with more reserve") as step:
             try:
-                again = size_on_robot(
+                resized = size_on_robot(
                     specification,
                     placed.robot,
                     strict=strict,
-                    reserve=reserve.raised(learnt.factor),
+                    reserve=reserve.raised(conclusion.factor),
                     estimates=placed.estimates,
                 )
             except (Refused, NeverHeld):
                 step.note = "no device has that reserve"
                 break
-            step.note = again.combinations
-        placed = again.telling(placed.taken)
+            step.note = resized.combinations
+        placed = resized.with_substitutions(placed.taken)
         proof = prove(placed, specified, steps)
     return placed, proof

@@ -72,9 +72,9 @@ class Outcome:
     @property
     def exit_code(self) -> int:
         """0, or 1 if it cannot be built, or falls short as designed or as sampled."""
-        found = self.design
-        failed = falls_short(found.validation, found.survival, found.reliability)
-        return int(failed or found.buildable.yes is False)
+        design = self.design
+        failed = falls_short(design.validation, design.survival, design.reliability)
+        return int(failed or design.buildable.yes is False)
 
     def __fspath__(self) -> str:
         """Its folder, so that an outcome can be given as the path of a design."""
@@ -119,8 +119,8 @@ def design_ocs(
     specification = specification_of(design_for)
     specified = specification.validation
     flying = {"--video films the": specified.video, "--certify repeats the": specified.certify}
-    for what, wanted in flying.items():
-        if wanted and specified.enabled is False:
+    for what, requested in flying.items():
+        if requested and specified.enabled is False:
             raise UsageError(
                 f"{what} flights, but --no-validate flies none", hint="leave one of them out"
             )
@@ -149,17 +149,19 @@ def design_ocs(
         with steps.step("export parts and robot files"):
             # The model is released after the files are written: nothing refers to the subject.
             margins = record_margins(placed.resolved, placed.designed, runs, proof.references)
-            built = buildable_of(robot, placed.designed, margins, placed.mounting)
+            buildable = buildable_of(robot, placed.designed, margins, placed.mounting)
             remarks = export_formats(
-                replace(Subject.of(robot, device, safe_name(robot.name)), refused=refusal(built)),
-                [each for each in USUAL_FORMATS if not each.needs_margins],
+                replace(
+                    Subject.of(robot, device, safe_name(robot.name)), refused=refusal(buildable)
+                ),
+                [file_format for file_format in USUAL_FORMATS if not file_format.needs_margins],
                 staging,
             )
             robot = replace(robot, warnings=(*robot.warnings, *remarks))
         unfilmed = _write_flights(placed, proof, staging, steps)
         with steps.step("search lighter alternatives"):
             lighter, driving_maneuver = wait_for_alternatives()
-        conceded = _lighter_changes(placed, driving_maneuver, steps)
+        trade_offs = _lighter_changes(placed, driving_maneuver, steps)
         forget_collision_model()
         control = control_of(specified, robot)
         design = replace(
@@ -168,7 +170,7 @@ def design_ocs(
                 placed.resolved,
                 placed.designed,
                 margins=margins,
-                built=built,
+                built=buildable,
                 mounting=placed.mounting,
                 warnings=(*turns_not_made(placed, proof.references), *placed.warnings, *unfilmed),
                 seed=specified.seed or 0,
@@ -183,12 +185,12 @@ def design_ocs(
             ),
             alternatives=lighter,
             owed=driving_maneuver,
-            lighter=conceded,
+            lighter=trade_offs,
         )
         if proof.survival is not None:
             with steps.step("size a device that need not survive"):
-                alone = mass_without_survival(placed.task)
-            design = replace(design, survival=replace(proof.survival, mass_without=alone))
+                mass_without = mass_without_survival(placed.task)
+            design = replace(design, survival=replace(proof.survival, mass_without=mass_without))
         if proof.certificate is not None:
             design = replace(design, reliability=proof.certificate.record.certificate)
             proof.certificate.write(
@@ -197,7 +199,11 @@ def design_ocs(
         with steps.step("write the report"):
             # Bill of materials and assembly, which also report on the flights.
             subject = Subject.of(robot, device, safe_name(robot.name)).recorded(design)
-            export_formats(subject, [each for each in USUAL_FORMATS if each.needs_margins], staging)
+            export_formats(
+                subject,
+                [file_format for file_format in USUAL_FORMATS if file_format.needs_margins],
+                staging,
+            )
             design = _write_report(design, subject, runs, staging, command)
         (staging / DESIGN_FILE).write_bytes(to_json(design))
     return Outcome(design, folder, robot, device, runs)
@@ -261,6 +267,6 @@ def _write_report(
         assembly=assembly_of(subject),
     )
     write_svgs(tuple(all_charts(story)), folder / FOLDER)
-    whole = replace(design, files=recorded_hashes(folder))
-    write_report(replace(story, design=whole), folder)
-    return whole
+    complete = replace(design, files=recorded_hashes(folder))
+    write_report(replace(story, design=complete), folder)
+    return complete

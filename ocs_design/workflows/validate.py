@@ -17,17 +17,17 @@ from ocs_design.export.film import Take, film_model
 from ocs_design.export.folder import check_target, file_hashes, staged_folder
 from ocs_design.export.watching import check_display, watch_takes
 from ocs_design.monte_carlo.campaign import Campaign, read_case, replayed, write_results
-from ocs_design.monte_carlo.certificate import ROUND, SequentialTest, certificate
+from ocs_design.monte_carlo.certificate import ROUND_STRIDE, SequentialTest, certificate
 from ocs_design.monte_carlo.outcomes import Identity, Storage, blocks_of
 from ocs_design.monte_carlo.running import (
-    AT_ONCE,
-    AT_ONCE_ON_DEVICE,
+    BLOCKS_AT_ONCE,
+    BLOCKS_AT_ONCE_ON_GPU,
     Cluster,
     fly_here,
     narrow,
     run_campaign,
 )
-from ocs_design.monte_carlo.summary import summarised
+from ocs_design.monte_carlo.summary import summarise
 from ocs_design.report.html.notebook import as_html
 from ocs_design.report.text.console import ProgressCallback, Steps
 from ocs_design.requirement.sections import ValidationSection
@@ -67,15 +67,15 @@ class _Request:
                 width between 0 and 1, or no engine.
             MissingToolError: there is no display to show the runs.
         """
-        wanted = {"--samples": self.samples, "--sample": self.sample, "--replay": self.replay}
-        given = [name for name, value in wanted.items() if value is not None]
+        alternatives = {"--samples": self.samples, "--sample": self.sample, "--replay": self.replay}
+        given = [name for name, value in alternatives.items() if value is not None]
         certifies, engine = self.specified.validation.certify is True, f"--engine {self.engine}"
-        elsewhere, width = self.engine != EngineName.MUJOCO, self.until_width
+        other_engine, width = self.engine != EngineName.MUJOCO, self.until_width
         refused = {
             f"{' and '.join(given)} exclude each other": (len(given) > 1, "give one"),
             f"--sample {self.sample}: must be a whole number from 0": ((self.sample or 0) < 0, ""),
             f"{'; '.join(given)} and --certify exclude each other: one robot certifies nothing": (
-                certifies and self.alone,
+                certifies and self.flies_one_sample,
                 "leave --certify out, or `certify` of the specification",
             ),
             "--certify and --until-width exclude each other": (
@@ -83,24 +83,27 @@ class _Request:
                 "give one",
             ),
             "--until-width and --scheduler need --samples": (
-                not self.many and (width is not None or self.scheduler is not None),
+                not self.flies_many_samples and (width is not None or self.scheduler is not None),
                 "add --samples N",
             ),
             f"{engine}: must be {' or '.join(EngineName)}": (
                 self.engine not in tuple(EngineName),
                 "",
             ),
-            f"{engine} needs --samples": (elsewhere and not self.many, "add --samples N"),
+            f"{engine} needs --samples": (
+                other_engine and not self.flies_many_samples,
+                "add --samples N",
+            ),
             f"{engine} and --scheduler exclude each other": (
-                elsewhere and self.scheduler is not None,
+                other_engine and self.scheduler is not None,
                 "",
             ),
             f"{engine} and --certify exclude each other: it computes in single precision": (
-                elsewhere and certifies,
+                other_engine and certifies,
                 "leave --engine out to certify",
             ),
-            f"--samples {self.samples}: must be from 1 to {ROUND:,}": (
-                self.samples is not None and not 1 <= self.samples <= ROUND,
+            f"--samples {self.samples}: must be from 1 to {ROUND_STRIDE:,}": (
+                self.samples is not None and not 1 <= self.samples <= ROUND_STRIDE,
                 "",
             ),
             f"--until-width {width or 0.0:.4g}: must be between 0 and 100 %": (
@@ -115,12 +118,12 @@ class _Request:
             check_display()
 
     @property
-    def alone(self) -> bool:
+    def flies_one_sample(self) -> bool:
         """Whether a single sampled robot is flown."""
         return self.sample is not None or self.replay is not None
 
     @property
-    def many(self) -> bool:
+    def flies_many_samples(self) -> bool:
         """Whether samples are flown, in addition to the flights as designed."""
         return self.samples is not None or self.specified.validation.certify is True
 
@@ -130,11 +133,11 @@ class Validation:
     """Flights of a design, as designed and as sampled.
 
     Attributes:
-        found: the record. folder: written to, if any. files: in it.
+        record: of these flights. folder: written to, if any. files: in it.
         flights: that were flown. runs: their results.
     """
 
-    found: Validated
+    record: Validated
     folder: Path | None
     files: tuple[str, ...]
     flights: DesignFlights
@@ -143,13 +146,13 @@ class Validation:
     @property
     def exit_code(self) -> int:
         """0, or 1 if a scenario does not pass with the device."""
-        return self.found.exit_code
+        return self.record.exit_code
 
     def __repr__(self) -> str:
-        return f"<Validation{repr(self.found).removeprefix('<Validated')}"
+        return f"<Validation{repr(self.record).removeprefix('<Validated')}"
 
     def _repr_html_(self) -> str:
-        return as_html(self.found)
+        return as_html(self.record)
 
 
 def validate_design(
@@ -197,9 +200,9 @@ def validate_design(
             cannot be written, or the engine or the display is missing.
     """
     steps, specified = Steps.of(progress), specification or Specification()
-    asked = ValidationSection(certify=certify or None, seed=seed)
+    overrides = ValidationSection(certify=certify or None, seed=seed)
     request = _Request(
-        specified=replace(specified, validation=merge_section(specified.validation, asked)),
+        specified=replace(specified, validation=merge_section(specified.validation, overrides)),
         samples=samples,
         until_width=until_width,
         scheduler=scheduler,
@@ -214,7 +217,7 @@ def validate_design(
     # Check before minutes of flights that the engine exists.
     physics = warp_engine() if engine == EngineName.WARP else None
     case = None if request.replay is None else read_case(request.replay)
-    if request.out is not None and not request.many:
+    if request.out is not None and not request.flies_many_samples:
         check_target(request.out, force=force)
     with steps.step("read the design, plan its flights") as step:
         flights = read_flights(
@@ -233,65 +236,67 @@ def validate_design(
     steps.warn(flights.warnings)
     pose_rate = POSE_RATE if view else None
     runs = flights.fly(steps, pose_rate=pose_rate)
-    found = Validated(
+    answer = Validated(
         design=str(flights.path),
         robot=flights.robot.name,
-        warnings=(*flights.warnings, *_unused(request.specified)),
+        warnings=(*flights.warnings, *_unused_keys(request.specified)),
         validation=tuple(map(record_run, runs)),
     )
-    if request.many:
+    if request.flies_many_samples:
         record, files = _fly_samples(request, flights, runs, steps, physics)
-        return Validation(replace(found, monte_carlo=record), request.out, files, flights, runs)
-    if request.alone:
+        return Validation(replace(answer, monte_carlo=record), request.out, files, flights, runs)
+    if request.flies_one_sample:
         campaign = campaign_of(flights, runs, request.specified.validation.seed)
-        drawn = campaign.sample(sample or 0)
+        to_sample = campaign.sample(sample or 0)
         if case is not None:
-            drawn = case.drawn(flights.device.layout, flights.detection)
-        with steps.step(f"fly sample {drawn.index} of seed {drawn.seed}"):
-            runs = replayed(campaign, drawn, pose_rate=pose_rate)
-        found = replace(
-            found,
+            to_sample = case.to_sample(flights.device.layout, flights.detection)
+        with steps.step(f"fly sample {to_sample.index} of seed {to_sample.seed}"):
+            runs = replayed(campaign, to_sample, pose_rate=pose_rate)
+        answer = replace(
+            answer,
             validation=tuple(map(record_run, runs)),
-            sample=SampleRecord(seed=drawn.seed, index=drawn.index, values=drawn.by_name),
+            sample=SampleRecord(
+                seed=to_sample.seed, index=to_sample.index, values=to_sample.by_name
+            ),
         )
     else:
-        found = replace(found, survival=flights.fly_stopped(steps))
+        answer = replace(answer, survival=flights.fly_stopped(steps))
     if request.out is None:
-        return Validation(found, None, (), flights, runs)
+        return Validation(answer, None, (), flights, runs)
     # The time series, and the design with these flights instead of its own.
     with staged_folder(request.out, force=force) as staging:
-        write_runs(runs, staging, found.survival)
-        again = replace(
+        write_runs(runs, staging, answer.survival)
+        updated = replace(
             flights.design,
-            validation=found.validation,
+            validation=answer.validation,
             control=flights.control,
             requirement=replace(flights.design.requirement, detection=flights.detection),
             files=file_hashes(staging),
         )
-        if found.survival is not None:
+        if answer.survival is not None:
             before = flights.design.survival
-            alone = None if before is None else before.mass_without
-            again = replace(again, survival=replace(found.survival, mass_without=alone))
-        (staging / DESIGN_FILE).write_bytes(to_json(again))
-    return Validation(found, request.out, tuple(again.files), flights, runs)
+            mass_without = None if before is None else before.mass_without
+            updated = replace(updated, survival=replace(answer.survival, mass_without=mass_without))
+        (staging / DESIGN_FILE).write_bytes(to_json(updated))
+    return Validation(answer, request.out, tuple(updated.files), flights, runs)
 
 
-_OF_FLIGHTS = ("validation", "reality")
+_FLIGHT_SECTIONS = ("validation", "reality")
 """Sections of a specification that apply to the flights of a design."""
 
-_NOT_OF_FLIGHTS = ("validation.enabled", "validation.video")
-_ALSO_OF_FLIGHTS = ("requirement.survives", "requirement.detection")
+_IGNORED_KEYS = ("validation.enabled", "validation.video")
+_FURTHER_FLIGHT_KEYS = ("requirement.survives", "requirement.detection")
 
 
-def _unused(specified: Specification) -> tuple[str, ...]:
+def _unused_keys(specified: Specification) -> tuple[str, ...]:
     """A sentence on the keys of a specification that do not apply to a finished design."""
     names = [
         path
         for path in specified.specified
-        if path in _NOT_OF_FLIGHTS
-        or not (path.partition(".")[0] in _OF_FLIGHTS or path in _ALSO_OF_FLIGHTS)
+        if path in _IGNORED_KEYS
+        or not (path.partition(".")[0] in _FLIGHT_SECTIONS or path in _FURTHER_FLIGHT_KEYS)
     ]
-    names += [f"maneuver {each.name!r}" for each in specified.maneuvers]
+    names += [f"maneuver {maneuver.name!r}" for maneuver in specified.maneuvers]
     if not names:
         return ()
     return (
@@ -307,7 +312,7 @@ def watch(answer: Validation) -> None:
         MissingToolError: no window can be opened.
     """
     flights, shown = answer.flights, [run for run in answer.runs if run.ocs]
-    device_of = {each.name: flights.device.as_flown(each) for each in flights.maneuvers}
+    device_of = {maneuver.name: flights.device.as_flown(maneuver) for maneuver in flights.maneuvers}
     posed = [(run.scenario, run.poses) for run in shown if run.poses is not None]
     takes = [
         Take(film_model(flights.robot, device_of[scenario], ocs=True), poses.qpos)
@@ -329,10 +334,10 @@ def _fly_samples(
     test = None
     if request.specified.validation.certify:
         test = SequentialTest(flights.design.requirement.reliability or RELIABILITY)
-    asked, folder = request.samples or (0 if test is None else test.most), request.out
+    requested, folder = request.samples or (0 if test is None else test.most_flights), request.out
     campaign = replace(campaign_of(flights, runs, request.specified.validation.seed), engine=engine)
-    enough = None if request.until_width is None else narrow(request.until_width)
-    enough = enough if test is None else test.decided
+    stop_when = None if request.until_width is None else narrow(request.until_width)
+    stop_when = stop_when if test is None else test.decided
     flown, storage = flights.flown_hash, None
     if folder is not None:
         # Everything that determines the figures of a campaign.
@@ -348,26 +353,26 @@ def _fly_samples(
             desaturate=flights.control.desaturate,
         )
         storage = Storage(folder, identity, force=request.force)
-    at_once = AT_ONCE if enough is None else 1
+    at_once = BLOCKS_AT_ONCE if stop_when is None else 1
     if engine is not None:
-        at_once = AT_ONCE_ON_DEVICE
+        at_once = BLOCKS_AT_ONCE_ON_GPU
     cluster = None if request.scheduler is None else Cluster(request.scheduler)
-    leaving = nullcontext() if cluster is None else closing(cluster)
-    with leaving, steps.step(f"fly {asked:,} samples") as step:
+    cluster_context = nullcontext() if cluster is None else closing(cluster)
+    with cluster_context, steps.step(f"fly {requested:,} samples") as step:
         outcomes = run_campaign(
             campaign,
-            blocks_of(asked),
+            blocks_of(requested),
             fly=partial(fly_here, at_once=at_once) if cluster is None else cluster.fly,
             storage=storage,
-            enough=enough,
+            stop_when=stop_when,
             progress=step.update,
         )
         certified = None if test is None else certificate(test, campaign, outcomes)
         if certified is not None:
             outcomes = outcomes.take(slice(certified.samples))
-        record = replace(summarised(campaign, outcomes, asked), certificate=certified)
-        by = "" if engine is None else f" by {engine.name}, in single precision"
-        step.note = f"{record.samples:,} flown{by}"
+        record = replace(summarise(campaign, outcomes, requested), certificate=certified)
+        engine_text = "" if engine is None else f" by {engine.name}, in single precision"
+        step.note = f"{record.samples:,} flown{engine_text}"
     if folder is None:
         return record, ()
     files = write_results(campaign, outcomes, record, folder, design=flown)

@@ -8,7 +8,7 @@ import typer
 
 from ocs_design.cli.app import EXAMPLES, app
 from ocs_design.cli.options import (
-    REPEATED,
+    REPLAY_PARAMETERS,
     package_paths_of_command,
     sample_command,
     specified_by_command,
@@ -61,7 +61,7 @@ def test_the_command_for_a_sample_has_all_relevant_options():
         repeated_command = shlex.split(sample_command(context, "d.json", 3))[2:]
     with command.make_context("validate", [*repeated_command[:-1], "4"]) as repeated:
         assert repeated.params["sample"] == 4
-        for name in ("design", "seed", *REPEATED):
+        for name in ("design", "seed", *REPLAY_PARAMETERS):
             assert repeated.params[name] == context.params[name], name
 
 

@@ -12,7 +12,7 @@ from scripts import modules_loaded_by
 from typer.testing import CliRunner
 
 from ocs_design.cli.app import app
-from ocs_design.cli.completion import PAPERS
+from ocs_design.cli.completion import PAPER_MANEUVERS
 from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.requirement.sweep import sweep_of
 from ocs_design.requirement.vocabulary import CRITERIA, GUARDS
@@ -43,7 +43,7 @@ SWEEPS = ["time", "angle", "radius", "height", "voltage"]
         ("ocs-design size --gravity m", ["moon", "mars"]),
         ("ocs-design export x --formats stl,dr", ["stl,drawing"]),
         ("ocs-design pareto --against ", SWEEPS),
-        ("ocs-design pareto --maneuver ", list(PAPERS)),
+        ("ocs-design pareto --maneuver ", list(PAPER_MANEUVERS)),
         ("ocs-design pareto --spec examples/solo12.toml --maneuver ba", ["back-flip"]),
         ("ocs-design catalogue ", ["motors", "gears", "materials"]),
         ("ocs-design size examples/s", ["examples/solo12.urdf"]),
@@ -69,7 +69,7 @@ def test_a_folder_is_completed_to_the_files_in_it(tmp_path, monkeypatch):
 
 def test_completed_words_are_accepted():
     solo12 = robot_by_hand(2.5, (0.032, 0.055, 0.07))
-    assert tuple(maneuver.name for maneuver in default_maneuvers(solo12)) == PAPERS
+    assert tuple(maneuver.name for maneuver in default_maneuvers(solo12)) == PAPER_MANEUVERS
     for name in SWEEPS:
         sweep_of(name, "")
 

@@ -12,7 +12,7 @@ import pytest
 from commands import BOUND, BY_HAND, DROP, failure, run
 
 import ocs_design.workflows.rounds
-from ocs_design.monte_carlo.certificate import ROUND, Lesson, certificate
+from ocs_design.monte_carlo.certificate import ROUND_STRIDE, Lesson, certificate
 from ocs_design.requirement.uncertainty import spreads
 
 
@@ -214,7 +214,7 @@ def test_a_certificate_is_in_design_and_report_and_can_be_repeated(folder):
         152,
         1,
     )
-    assert (reliability["seed"], reliability["first"]) == (3, ROUND)
+    assert (reliability["seed"], reliability["first"]) == (3, ROUND_STRIDE)
     assert "certified for 99 %: 152 of 152 pass" in Path("ocs/report.html").read_text()
     record = json.loads(Path("ocs/certificate/monte_carlo.json").read_text())
     assert record["certificate"] == reliability
@@ -261,6 +261,6 @@ def test_an_uncertified_device_is_sized_again_with_new_samples(folder, monkeypat
     assert result.code == 1
     reliability = result.document["reliability"]
     assert reliability["round"] == rounds
-    assert reliability["first"] == rounds * ROUND
+    assert reliability["first"] == rounds * ROUND_STRIDE
     expected = [f"round {number}: falls short" for number in (1, 2)[: min(rounds, 2)]]
     assert [text.split(",")[0] for text in reliability["rounds"]] == expected

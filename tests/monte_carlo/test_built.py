@@ -27,7 +27,7 @@ def designed_and_sampled(robot, device=None, **errors):
         robot, UncertaintySection(**distributions), device=device, drop_only=True
     )
     world = campaign.flights[0].world
-    return world, campaign.built(campaign.sample(0), 0)
+    return world, campaign.sampled_world(campaign.sample(0), 0)
 
 
 def accelerations(model):
@@ -130,7 +130,7 @@ def test_inertias_stay_physical_for_large_errors(solo12):
         sample = campaign.sample(0)
         values = sample.values.copy()
         values[1:4] = errors
-        model = campaign.built(replace(sample, values=values), 0).model
+        model = campaign.sampled_world(replace(sample, values=values), 0).model
         low, middle, high = np.sort(model.body_inertia[world.addresses.trunk])
         assert low > 0.0
         assert high <= (low + middle) * (1.0 + 1e-12)
@@ -191,7 +191,7 @@ def test_reused_mujoco_data_does_not_change_the_samples(solo12):
     scratch = mujoco.MjData(campaign.flights[0].world.model)
     for index in range(3):
         sample = campaign.sample(index)
-        alone, shared = (campaign.built(sample, 0, data).model for data in (None, scratch))
+        alone, shared = (campaign.sampled_world(sample, 0, data).model for data in (None, scratch))
         for name in dir(alone):
             value = getattr(alone, name)
             if isinstance(value, np.ndarray):

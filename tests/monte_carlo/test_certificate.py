@@ -17,7 +17,7 @@ from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.device.records.flights import Conclusion
 from ocs_design.monte_carlo.certificate import (
     ERROR,
-    LARGEST,
+    LARGEST_RAISE,
     SequentialTest,
     certificate,
     lesson,
@@ -52,7 +52,7 @@ def test_a_good_device_is_certified_and_a_bad_one_is_not(specified):
     ends = endings(test)
     verdicts, flights = operating(ends, 1 - 0.1 * (1 - specified))
     assert verdicts[Conclusion.CERTIFIED] >= 0.999
-    first = test.found(np.ones(test.most, dtype=bool))[1]
+    first = test.verdict_on(np.ones(test.most_flights, dtype=bool))[1]
     assert flights <= 1.15 * first
     assert operating(ends, 0.5 * test.worse)[0][Conclusion.SHORT] >= 0.9
 
@@ -61,14 +61,14 @@ def test_99_percent_take_152_flights_and_are_rarely_undecided():
     """ln 20 / ln(0.99 / 0.970588) = 151.3."""
     test = SequentialTest(0.99)
     assert test.worse == pytest.approx(0.970588, abs=1e-6)
-    assert test.most == 1000
-    assert test.found(np.ones(151, dtype=bool)) == (None, 151)
-    assert test.found(np.ones(400, dtype=bool)) == (Conclusion.CERTIFIED, 152)
-    assert test.found(np.zeros(400, dtype=bool)) == (Conclusion.SHORT, 3)
-    halfway = operating(endings(test), 0.5 * (test.asked + test.worse))[0]
+    assert test.most_flights == 1000
+    assert test.verdict_on(np.ones(151, dtype=bool)) == (None, 151)
+    assert test.verdict_on(np.ones(400, dtype=bool)) == (Conclusion.CERTIFIED, 152)
+    assert test.verdict_on(np.zeros(400, dtype=bool)) == (Conclusion.SHORT, 3)
+    halfway = operating(endings(test), 0.5 * (test.required + test.worse))[0]
     assert halfway[Conclusion.UNDECIDED] < 0.1
     for reliability, flights in ((0.95, 32), (0.8, 9)):
-        verdict = SequentialTest(reliability).found(np.ones(64, dtype=bool))
+        verdict = SequentialTest(reliability).verdict_on(np.ones(64, dtype=bool))
         assert verdict == (Conclusion.CERTIFIED, flights)
 
 
@@ -88,8 +88,8 @@ def test_coverage_of_the_interval_is_nearly_that_of_a_fixed_number(specified):
 
 def test_it_ends_undecided_after_the_maximum():
     test = SequentialTest(0.9)
-    passed = np.arange(2 * test.most) % 6 != 5
-    assert test.found(passed) == (Conclusion.UNDECIDED, test.most)
+    passed = np.arange(2 * test.most_flights) % 6 != 5
+    assert test.verdict_on(passed) == (Conclusion.UNDECIDED, test.most_flights)
 
 
 @pytest.fixture(scope="module")
@@ -118,7 +118,9 @@ def test_the_reserve_is_raised_by_the_excess_of_the_tilt(campaign, spread):
     outcomes.metrics[:, 0, METRICS.index("touchdown_pitch")] = 0.0
     outcomes.metrics[:, 0, METRICS.index("touchdown_roll")] = tilt
     result = lesson(SequentialTest(0.99), campaign, outcomes)
-    assert result.factor == pytest.approx(min(2.576 * spread / np.radians(5.0), LARGEST), rel=0.1)
+    assert result.factor == pytest.approx(
+        min(2.576 * spread / np.radians(5.0), LARGEST_RAISE), rel=0.1
+    )
     assert "off level in roll" in result.observation
     assert re.search(
         r"; 99% stay within \d+\.\d deg \(5 deg is allowed\), and \d+% of the", result.observation

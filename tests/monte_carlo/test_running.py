@@ -56,9 +56,9 @@ def test_the_order_of_arrival_does_not_matter():
 
 def test_early_stopping_does_not_depend_on_the_order_of_arrival():
     forward, backward = MadeUpFlights(), MadeUpFlights(-1)
-    outcomes = run_campaign(None, BLOCKS, fly=forward, enough=narrow(0.3))
+    outcomes = run_campaign(None, BLOCKS, fly=forward, stop_when=narrow(0.3))
     assert len(outcomes.index) == 8 * len(forward.flown) < 100
-    assert_same(outcomes, run_campaign(None, BLOCKS, fly=backward, enough=narrow(0.3)))
+    assert_same(outcomes, run_campaign(None, BLOCKS, fly=backward, stop_when=narrow(0.3)))
 
 
 @pytest.fixture
@@ -99,12 +99,12 @@ def test_a_corrupt_block_is_flown_again(tmp_path, stored, corrupt):
 
 
 def test_another_campaign_is_not_mixed_in(tmp_path, stored):
-    stored().keep(BLOCKS[0], synthetic_outcomes(range(8)))
+    stored().save_block(BLOCKS[0], synthetic_outcomes(range(8)))
     other = replace(IDENTITY, seed=1)
     with pytest.raises(OutputError, match="these differ: seed"):
         Storage(tmp_path / "mc", other, force=False)
     replaced = Storage(tmp_path / "mc", other, force=True)
-    assert not replaced.found(BLOCKS)
+    assert not replaced.load_blocks(BLOCKS)
 
 
 def test_a_foreign_folder_is_left_alone(tmp_path):

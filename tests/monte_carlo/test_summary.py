@@ -10,7 +10,7 @@ from scipy import stats
 
 from ocs_design.device.layout import module_axes
 from ocs_design.monte_carlo.outcomes import METRICS, share
-from ocs_design.monte_carlo.summary import advice, attitude_error, causes, order
+from ocs_design.monte_carlo.summary import advice, attitude_error, causes, severity_ranking
 from ocs_design.requirement.turns import Drop, Flip, TurnTo
 
 DROP = Drop(name="drop", height=1.0, pitch=0.5)
@@ -19,7 +19,7 @@ IN_LINE = Flip(name="flip", jump_height=1.0, angle=-3.0, duration=1.0, incidence
 
 def test_only_the_actual_cause_is_found():
     outcomes = synthetic_outcomes(range(400))
-    found_causes = causes(outcomes, order(outcomes, DROP, 0))
+    found_causes = causes(outcomes, severity_ranking(outcomes, DROP, 0))
     assert [(cause.quantity, cause.either_way) for cause in found_causes] == [(NAMES[0], True)]
     distance = np.abs(outcomes.values[:, 0] - np.median(outcomes.values[:, 0]))
     expected = stats.spearmanr(distance, attitude_error(outcomes, DROP, 0)).statistic
@@ -31,7 +31,7 @@ def test_one_sided_causes_have_their_sign():
     outcomes.metrics[:] = 0.0
     outcomes.codes[:] = 0
     outcomes.metrics[:, 0, 1] = 5.0 - outcomes.values[:, 3]
-    (cause,) = causes(outcomes, order(outcomes, DROP, 0))
+    (cause,) = causes(outcomes, severity_ranking(outcomes, DROP, 0))
     assert (cause.quantity, cause.either_way) == (NAMES[3], False)
     assert cause.correlation == -1.0
 
@@ -40,9 +40,9 @@ def test_failures_and_unjudged_flights_are_ordered_last():
     outcomes = synthetic_outcomes(range(50))
     outcomes.codes[:] = 0
     outcomes.codes[7] = 4
-    assert order(outcomes, DROP, 0)[-1] == 7
+    assert severity_ranking(outcomes, DROP, 0)[-1] == 7
     outcomes.codes[9], outcomes.metrics[9] = 1, np.nan
-    assert order(outcomes, DROP, 0)[-2:].tolist() == [7, 9]
+    assert severity_ranking(outcomes, DROP, 0)[-2:].tolist() == [7, 9]
 
 
 def test_the_error_of_a_turn_is_the_angle_of_the_vertical():
@@ -65,7 +65,7 @@ def test_the_error_of_a_flip_is_its_missing_angle():
 def test_constant_quantities_are_no_cause():
     outcomes = synthetic_outcomes(range(100))
     outcomes.values[:] = 1.0
-    assert causes(outcomes, order(outcomes, DROP, 0)) == ()
+    assert causes(outcomes, severity_ranking(outcomes, DROP, 0)) == ()
 
 
 def with_tilted_landings(axis, samples=60):

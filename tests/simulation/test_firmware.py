@@ -97,7 +97,7 @@ def by_numpy(world, target, attitude, rate, speed, ground):
     if world.desaturation is not None:
         brake = WheelBrake([world.desaturation] * len(rate), PERIOD)
         brake._stood[:] = ground - PERIOD  # it counts the step that has just passed
-        target = brake.added(target, speed, ground > 0.0)
+        target = brake.with_braking(target, speed, ground > 0.0)
     return world.law.repeat(len(rate)).torque(
         quaternions.vertical(attitude), rate, speed, target, PERIOD, attitude=attitude
     )

@@ -45,7 +45,7 @@ def campaign(solo12):
 @pytest.fixture(scope="module")
 def flying(campaign):
     """Models of falling robots, their start states, and controls and wrenches of each step."""
-    worlds = [campaign.built(campaign.sample(index), 1) for index in range(COUNT)]
+    worlds = [campaign.sampled_world(campaign.sample(index), 1) for index in range(COUNT)]
     model, random = worlds[0].model, np.random.default_rng(3)
     commands = np.stack([world.ctrl for world in worlds])[:, None].repeat(STEPS, 1)
     commands += random.normal(0.0, 0.1, commands.shape)

@@ -18,7 +18,7 @@ from ocs_design.workflows.doctor import (
     compiler,
     examination_to_json,
     examine,
-    film_maker,
+    ffmpeg,
     opengl,
     processors,
     python,
@@ -132,8 +132,8 @@ def test_the_video_encoder(script, state, found, tmp_path, monkeypatch):
         program.chmod(0o755)
     monkeypatch.setenv("PATH", str(tmp_path))
     monkeypatch.setattr("ocs_design.export.programs.find_spec", lambda name: None)
-    assert (film_maker().state, film_maker().found) == (state, found)
-    assert bool(film_maker().cure) == (state is State.MISSING)
+    assert (ffmpeg().state, ffmpeg().found) == (state, found)
+    assert bool(ffmpeg().cure) == (state is State.MISSING)
 
 
 def test_missing_opengl_has_reason_and_cure(monkeypatch):

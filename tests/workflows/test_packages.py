@@ -41,7 +41,9 @@ def findings(tmp_path_factory):
         patch.syspath_prepend(folder)
         patch.setenv("PYTHONPATH", str(folder))
         patch.setattr(doctor, "DISTRIBUTION", "ocs-trial")
-        return {finding.name: finding for finding in package_findings(doctor.wanted_packages())}
+        return {
+            finding.name: finding for finding in package_findings(doctor.package_requirements())
+        }
 
 
 def test_packages_for_developers_are_left_out(findings):

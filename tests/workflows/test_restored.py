@@ -19,7 +19,7 @@ from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.posture import OUTSIDE
 from ocs_design.robot.reader import read_robot
 from ocs_design.workflows.flying import flown_hash
-from ocs_design.workflows.restoring import Whereabouts, read_recorded_robot, robot_of, seat_of
+from ocs_design.workflows.restoring import RobotLocation, base_of, read_recorded_robot, robot_of
 
 HUMAN = next(ROBOTS.rglob("human.urdf"))
 MIMIC = """<robot name="gripper">
@@ -67,7 +67,7 @@ def test_a_restored_robot_has_the_same_posture(path):
 @pytest.mark.parametrize("path", [LEGGED_PATHS[0], HUMAN])
 def test_the_base_frame_is_that_of_the_robot(path):
     robot = read_robot(path)
-    base = seat_of(through_json(RobotRecord.of(robot)))
+    base = base_of(through_json(RobotRecord.of(robot)))
     assert base.trunk == robot.trunk
     if robot.mount is None:
         assert base.mount is None
@@ -109,7 +109,7 @@ def test_a_robot_whose_included_file_has_changed_is_refused(tmp_path):
     (tmp_path / "robot.xml").write_text('<mujoco><include file="trunk.xml"/></mujoco>')
     (tmp_path / "trunk.xml").write_text(body.format('<geom size="0.1" mass="2"/>'))
     record = RobotRecord.of(read_robot(tmp_path / "robot.xml"))
-    where = Whereabouts(tmp_path / "out" / "design.json", None, {}, "")
+    where = RobotLocation(tmp_path / "out" / "design.json", None, {}, "")
     assert read_recorded_robot(record, where, strict=True)[0].mass == 2.0
     (tmp_path / "trunk.xml").write_text(body.format('<geom size="0.1" mass="3"/>'))
     with pytest.raises(RobotError, match="includes has changed"):

@@ -52,7 +52,7 @@ def test_a_turn_that_needs_larger_wheels_is_sized_again(placed, monkeypatch):
     monkeypatch.setattr(rounds, "references_of", lambda *_: next(plans))
     monkeypatch.setattr(rounds, "size_on_robot", size_again)
     changes = (("Layout: four wheels.",), ("four wheels are needed",))
-    final = size_for_turns(placed.telling(changes), Steps(), strict=False)
+    final = size_for_turns(placed.with_substitutions(changes), Steps(), strict=False)
     assert requests == [{"turn": 1.5}]
     assert final.estimates == {"turn": 1.5}
     assert final.resolved.assumptions == ("Layout: four wheels.", "assumed")

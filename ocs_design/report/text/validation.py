@@ -9,7 +9,7 @@ from rich.text import Text
 from ocs_design.common.units import format_quantity
 from ocs_design.device.answers import Validated
 from ocs_design.device.records.flights import SurvivalRecord, ValidationRecord
-from ocs_design.monte_carlo.uncertainty import STOPS, key_of
+from ocs_design.monte_carlo.uncertainty import STOP_QUANTITIES, key_of
 from ocs_design.report import flights, monte_carlo
 from ocs_design.report.table import Tone
 from ocs_design.report.text.layout import STYLES, facts, files_written, heading, items, note, show
@@ -50,7 +50,9 @@ def print_validated(
     """
     if result.sample is not None:
         heading(console, f"Sample {result.sample.index} of seed {result.sample.seed}")
-        units = {key: spread.unit for key, spread in spreads().items()} | dict.fromkeys(STOPS, "")
+        units = {key: spread.unit for key, spread in spreads().items()} | dict.fromkeys(
+            STOP_QUANTITIES, ""
+        )
         values = (
             (name.replace("_", " ").replace(".", " "), format_quantity(value, units[key_of(name)]))
             for name, value in result.sample.values.items()
