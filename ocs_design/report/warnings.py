@@ -60,7 +60,9 @@ def all_warnings(design: OcsDesign) -> Iterator[str]:
             f"the reserve for {100.0 * reserve.reliability:.8g} % of robots is set by the worst of "
             f"{DRAWN:,} samples, which cannot show more: fly more of them with --certify"
         )
-    yield from ocs.warnings
+    # An open point is reported with the verdict.
+    said = tuple(point.what for point in design.buildable.open)
+    yield from (each for each in ocs.warnings if not each.startswith(said))
     if ocs.motor.overvoltage:
         yield ocs.motor.overvoltage
     yield from design.robot.warnings[1:]

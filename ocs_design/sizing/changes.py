@@ -183,7 +183,7 @@ def _key_lever(
         factor = 1.0 + percent / 100.0
         value = round_outwards(present * factor if upwards else present / factor, upwards=upwards)
         text = (
-            f"{key} {format_quantity(value, unit)} in place of {format_quantity(present, unit, 3)}"
+            f"{key} {format_quantity(value, unit)} instead of {format_quantity(present, unit, 3)}"
         )
         return Change(text, task.with_key(section, key, value))
 

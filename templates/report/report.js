@@ -175,5 +175,5 @@ const painted = new Promise((done) => {
 // Where WebGL 2 is missing the picture stays.
 painted.then(start).catch((error) => {
   const note = find("viewer-note");
-  if (note) note.textContent = `No view to turn here (${error.message}); the picture shows the same.`;
+  if (note) note.textContent = `No 3-D view here (${error.message}): the picture shows the same.`;
 });

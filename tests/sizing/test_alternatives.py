@@ -69,7 +69,7 @@ def slower_maneuvers(task):
         ("any material", "flywheel", lambda _: FlywheelSection(material="auto")),
         ("modules turned to 0 deg by hand for each flip", "maneuvers", flips_by_hand),
         ("a supply of 48 V", "supply", lambda _: SupplySection(voltage=48.0)),
-        ("r_max 60 mm in place of 50 mm", "flywheel", lambda _: FlywheelSection(r_max=0.06)),
+        ("r_max 60 mm instead of 50 mm", "flywheel", lambda _: FlywheelSection(r_max=0.06)),
         ("10% more time for every maneuver", "maneuvers", slower_maneuvers),
     ],
 )

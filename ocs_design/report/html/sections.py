@@ -204,7 +204,7 @@ def maneuvers_section(
     for name in names:
         runs = [run for run in story.design.validation if run.scenario == name]
         number = str(scenarios.index(name)) if name in scenarios else ""
-        button = element("button", "Show it in the view", type="button", data_replay=number)
+        button = element("button", "Show in the 3-D view", type="button", data_replay=number)
         parts.append(
             element(
                 "article",
