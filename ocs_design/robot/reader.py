@@ -170,8 +170,8 @@ def _load(read: Source, package_paths: Mapping[str, Path], named: Sequence[str])
         from ocs_design.robot.mjcf import read_mjcf  # noqa: PLC0415 - MuJoCo takes 0.3 s
 
         tree = read_mjcf(content, folder, named)
-        unseen = any(map(lacks_mesh, tree.bodies))
-        cure = f"put them where the model names them, below {folder}" if unseen else ""
+        ignore_progress = any(map(lacks_mesh, tree.bodies))
+        cure = f"put them where the model names them, below {folder}" if ignore_progress else ""
         return Loaded(tree, RobotFormat.MJCF, content, read.sha256, read.path_text, cure)
     if root.tag == "robot" and is_xacro(root):
         content = expand_xacro(content, folder / Path(read.path_text).name, package_paths)

@@ -28,9 +28,9 @@ from ocs_design.sizing.limits import (
     Limit,
     Progress,
     advice,
+    ignore_progress,
     narrowed,
     smallest_changes,
-    unseen,
 )
 from ocs_design.sizing.selection.bounds import (
     incidence_intervals,
@@ -58,16 +58,16 @@ ADVICE_PRECISION = 0.03
 """Relative precision of the changes: with a change smaller by more than this, none of the drives
 that `Field.possible` tries is feasible."""
 
-MOST_ADVISED = 10.0
+LARGEST_FACTOR = 10.0
 """Largest factor by which a limit is changed; beyond it, the project is a different one."""
 
-_MOST_ADVISED = {"wheel_mass_max": MOST_ADVISED**3, "r_max": 7.0, "time": 3.0}
+_LARGEST_FACTORS = {"wheel_mass_max": LARGEST_FACTOR**3, "r_max": 7.0, "time": 3.0}
 """Limits with another largest factor. Mass scales with the cube of length. Three times the duration
 of a jump is nine times its height; beyond that, a humanoid would be advised to fall from 145 m.
 Inertia scales with the fourth power of the radius, so the radius is changed less: larger wheels may
 couple roll and pitch arbitrarily strongly, and no bound on what they need holds then."""
 
-_STATE_FIGURES = (
+_GIVE_FIGURES = (
     "Choose another motor (`ocs-design catalogue motors` marks what is missing), or give its "
     "figures in your own file with --motors."
 )
@@ -76,7 +76,7 @@ _STATE_FIGURES = (
 _INTERVALS = 6
 """Number of intervals of the incidence, fewer than in `bounds`, for all drives at once."""
 
-_FIRST, _BLOCK = 32, 512
+_FIRST_BOUNDED, _BOUNDED = 32, 512
 """Sizes of the first and of later batches of candidates that are bounded together; any feasible one
 will do, so the first batch is small."""
 
@@ -118,8 +118,8 @@ class Field:
     def changed(self, problem: SelectionProblem) -> "Field":
         """Field of these drives for a problem that differs in a limit."""
         old, drives = self.problem, self.drives
-        before, after = ((each.bus_voltage, each.wheel_speed_max) for each in (old, problem))
-        if before != after:
+        same_voltage = problem.bus_voltage == old.bus_voltage
+        if not (same_voltage and problem.wheel_speed_max == old.wheel_speed_max):
             drives = drives_of(problem, np.column_stack([drives.motor, drives.gear]))
         return Field.of(problem, drives)
 
@@ -141,7 +141,7 @@ class Field:
         tried = 0
         for candidates, guess in self._bounded():
             # The search ends at the first that has a device.
-            if any(each.point.feasible.any() for each in solve_stepwise(candidates, guess)):
+            if any(solved.point.feasible.any() for solved in solve_stepwise(candidates, guess)):
                 return True
             tried += len(candidates)
             if tried >= _MOST_SOLVED:
@@ -161,44 +161,44 @@ class Field:
         """
         if limit is not TIME:
             return limit.loose_text(value)
-        before = self.problem.requirement.maneuvers
-        slow = {maneuver.name for maneuver in before}
-        for maneuver in before:
-            fewer = slow - {maneuver.name}
-            if fewer and self.changed(with_time(self.problem, value, fewer)).possible:
-                slow = fewer
-        after = with_time(self.problem, value, slow).requirement.maneuvers
-        both = zip(before, after, strict=True)
-        return " together with ".join(change_text(old, new) for old, new in both if old is not new)
+        present = self.problem.requirement.maneuvers
+        slow = {maneuver.name for maneuver in present}
+        for maneuver in present:
+            names = slow - {maneuver.name}
+            if names and self.changed(with_time(self.problem, value, names)).possible:
+                slow = names
+        slower = with_time(self.problem, value, slow).requirement.maneuvers
+        pairs = zip(present, slower, strict=True)
+        return " together with ".join(change_text(old, new) for old, new in pairs if old is not new)
 
     def _bounded(self) -> Iterator[tuple[Candidates, Guess]]:
         """Candidates that no bound rules out, the most promising first, few at first."""
-        every = Candidates.of_each_material(self.problem, self.drives)
+        candidates = Candidates.of_each_material(self.problem, self.drives)
         # Candidates whose largest wheel has the most margin come first; too small ones are dropped.
-        beside = every.drives.inertia_beside_rim
+        inertia_beside_rim = candidates.drives.inertia_beside_rim
         needed = np.repeat(self.needed, len(self.problem.materials))
-        largest = largest_spin_inertia(every.limits) + beside
-        spare = largest / np.maximum(needed, 1e-15)
-        roomy = np.flatnonzero((largest > beside) & (spare >= 1.0))
-        order = roomy[np.argsort(-spare[roomy], kind="stable")]
-        left, needed = every.take(order), needed[order]
-        sizes = chain([_FIRST], repeat(_BLOCK))
+        largest = largest_spin_inertia(candidates.limits) + inertia_beside_rim
+        margin = largest / np.maximum(needed, 1e-15)
+        large_enough = np.flatnonzero((largest > inertia_beside_rim) & (margin >= 1.0))
+        order = large_enough[np.argsort(-margin[large_enough], kind="stable")]
+        left, needed = candidates.take(order), needed[order]
+        sizes = chain([_FIRST_BOUNDED], repeat(_BOUNDED))
         while len(left):
             size = next(sizes)
-            some = left.take(np.arange(min(size, len(left))))
-            guess = initial_guess(some, needed[:size])
+            block = left.take(np.arange(min(size, len(left))))
+            guess = initial_guess(block, needed[:size])
             rows = np.flatnonzero(np.isfinite(guess.mass))
             solved = chain([_FIRST_SOLVED], repeat(_SOLVED))
             while rows.size:
                 count = next(solved)
-                yield some.take(rows[:count]), guess.take(rows[:count])
+                yield block.take(rows[:count]), guess.take(rows[:count])
                 rows = rows[count:]
             left, needed = left.take(np.arange(size, len(left))), needed[size:]
 
 
 def advice_on(
     refused: Refused,
-    progress: Progress = unseen,
+    progress: Progress = ignore_progress,
     *,
     default: bool = False,
     lightest: bool = True,
@@ -212,29 +212,31 @@ def advice_on(
     """
     reason, problem = refused.nearest.reason, refused.problem
     changes: dict[Limit, float] = {}
-    hints: list[str] = [_STATE_FIGURES]
+    hints: list[str] = [_GIVE_FIGURES]
     if reason is not Reason.FIGURES:
         field = Field.of(problem)
         # Changing a limit does not help where the incidence is at fault.
         if reason is not Reason.INCIDENCE:
             changes = single_changes(field, progress)
-        model = next(each for each in problem.motors if each.name == refused.nearest.motor)
-        needed = needed_motor(problem, model)
+        nearest_motor = next(
+            motor for motor in problem.motors if motor.name == refused.nearest.motor
+        )
+        motor_needed = needed_motor(problem, nearest_motor)
         hints = []
         if default:
-            asked = problem.requirement
-            hints.append(unasked(asked.maneuvers))
-            fine = [
-                each.name
-                for each in asked.maneuvers
-                if field.with_requirement(replace(asked, maneuvers=(each,))).possible
+            requirement = problem.requirement
+            hints.append(defaults_text(requirement.maneuvers))
+            feasible = [
+                maneuver.name
+                for maneuver in requirement.maneuvers
+                if field.with_requirement(replace(requirement, maneuvers=(maneuver,))).possible
             ]
-            if fine:
-                alone = "by itself" if len(fine) == 1 else "one at a time"
-                hints.append(f"Feasible {alone}: {some_of(fine)}.")
+            if feasible:
+                alone = "by itself" if len(feasible) == 1 else "one at a time"
+                hints.append(f"Feasible {alone}: {some_of(feasible)}.")
         hints += [
-            *_caught(field),
-            *([] if needed is None else [needed.text]),
+            *_balanced_upset(field),
+            *([] if motor_needed is None else [motor_needed.text]),
             *_hints(field, reason, changes, lightest=lightest),
         ]
     if refused.for_reserve:
@@ -244,23 +246,27 @@ def advice_on(
     return refused
 
 
-def _caught(field: Field) -> Iterator[str]:
+def _balanced_upset(field: Field) -> Iterator[str]:
     """Sentence on the largest upset that the drives can balance, all else as specified."""
     requirement = field.problem.requirement
-    asked = [each for each in requirement.maneuvers if each.upset]
+    upset = [maneuver for maneuver in requirement.maneuvers if maneuver.upset]
 
-    def does(factor: float) -> bool:
-        less = requirement.changed(lambda each: each.milder(1.0 / factor) if each.upset else each)
-        return field.with_requirement(less).possible
+    def is_feasible(factor: float) -> bool:
+        milder = requirement.changed(
+            lambda maneuver: maneuver.milder(1.0 / factor) if maneuver.upset else maneuver
+        )
+        return field.with_requirement(milder).possible
 
-    if not asked or not does(MOST_ADVISED):
+    if not upset or not is_feasible(LARGEST_FACTOR):
         return
-    _, factor = narrowed(does, 1.0, MOST_ADVISED, ADVICE_PRECISION)
-    text = some_of([f"{each.milder(1.0 / factor).upset} for {each.name}" for each in asked])
+    _, factor = narrowed(is_feasible, 1.0, LARGEST_FACTOR, ADVICE_PRECISION)
+    text = some_of(
+        [f"{maneuver.milder(1.0 / factor).upset} for {maneuver.name}" for maneuver in upset]
+    )
     yield f"A device exists with {text}."
 
 
-def single_changes(field: Field, progress: Progress = unseen) -> dict[Limit, float]:
+def single_changes(field: Field, progress: Progress = ignore_progress) -> dict[Limit, float]:
     """Values of single limits that just make a device feasible, the gentlest change first [SI].
 
     Each is verified by searching for a device again, among all motors and gears of the problem; a
@@ -271,7 +277,7 @@ def single_changes(field: Field, progress: Progress = unseen) -> dict[Limit, flo
         limits_of(field.problem),
         lambda changed: changed.possible,
         precision=ADVICE_PRECISION,
-        most=lambda limit: _MOST_ADVISED.get(limit.name, MOST_ADVISED),
+        most=lambda limit: _LARGEST_FACTORS.get(limit.name, LARGEST_FACTOR),
         conceivable=lambda changed: changed.conceivable,
         progress=progress,
     )
@@ -307,32 +313,32 @@ def _hints(
         yield advice([], "loosen several, ask for less, or add stronger motors.")
 
 
-def unasked(maneuvers: Sequence[Maneuver]) -> str:
+def defaults_text(maneuvers: Sequence[Maneuver]) -> str:
     """Sentences that say that these maneuvers are the defaults, and how to specify others."""
-    names = some_of([each.name for each in maneuvers])
+    names = some_of([maneuver.name for maneuver in maneuvers])
     return (
         f"No maneuver was specified, so the defaults apply: {names}. Specify your own with "
         "--jump-height, --tilt, --fall or --kick; they replace the defaults."
     )
 
 
-_STRONGER = 1.2 ** np.arange(1, 10)
+_TORQUE_FACTORS = 1.2 ** np.arange(1, 10)
 """Peak torques to try, relative to that which turns the robot alone in time: up to fivefold."""
 
-_FASTER = (1.2, 1.6, 2.2)
+_SPEED_FACTORS = (1.2, 1.6, 2.2)
 """No-load speeds to try, relative to that of the largest wheel with the robot's momentum."""
 
-_AS_WEAK = 1.1
+_SIMILAR_TORQUE = 1.1
 """Of two motors whose torques differ by at most this factor, the slower one is recommended."""
 
-_DENSER = (1.0, 2.0, 4.0)
+_TORQUE_DENSITY_FACTORS = (1.0, 2.0, 4.0)
 """Torque-to-mass ratios to try in turn, relative to the model's: where six motors weigh as much as
 the robot, none built like the model would do, however large."""
 
-_ANGLES = np.radians(np.arange(5.0, 90.0, 5.0))
+_INCIDENCES = np.radians(np.arange(5.0, 90.0, 5.0))
 """Incidences to try where it is free; that which requires the least torque is taken [rad]."""
 
-_STALL = (2.0, 10.0)
+_STALL_RATIO_RANGE = (2.0, 10.0)
 """Assumed range of a winding's ratio of stall torque to peak torque."""
 
 
@@ -388,7 +394,7 @@ def needed_motor(problem: SelectionProblem, model: Motor) -> NeededMotor | None:
     if not problem.layout.pairs or not (model.mass and model.peak_torque):
         return None
 
-    def asked(incidence: float) -> tuple[float, float]:
+    def demand(incidence: float) -> tuple[float, float]:
         """Largest torque [N m] and momentum [N m s] of a wheel."""
         demands = spin_demands(problem.requirement, problem.robot.inertia, incidence)
         torque = max(demand.torque for demand in demands)
@@ -396,48 +402,55 @@ def needed_motor(problem: SelectionProblem, model: Motor) -> NeededMotor | None:
         return torque / problem.layout.pairs, momentum / problem.layout.pairs
 
     if problem.incidence is None:
-        problem = replace(problem, incidence=float(min(_ANGLES, key=asked)))
+        problem = replace(problem, incidence=float(min(_INCIDENCES, key=demand)))
     assert problem.incidence is not None, "it was chosen"
-    (torque, momentum), largest = asked(problem.incidence), largest_wheel(problem, problem.envelope)
+    torque, momentum = demand(problem.incidence)
+    largest = largest_wheel(problem, problem.envelope)
     if not (torque > 0.0 and np.isfinite(momentum) and largest > 0.0):
         return None
 
     direct = next((gear for gear in problem.gears if gear.room is None), DIRECT)
 
-    def does(built: Motor, speed: float, peak: float) -> bool:
-        motor = _scaled(built, peak, speed, problem.bus_voltage)
+    def is_feasible(base: Motor, speed: float, peak: float) -> bool:
+        motor = _scaled(base, peak, speed, problem.bus_voltage)
         return Field.of(replace(problem, motors=(motor,), gears=(direct,))).possible
 
-    for denser in _DENSER:
-        own, found = replace(model, peak_torque=denser * model.peak_torque), []
-        for faster in _FASTER:
-            speed = faster * momentum / largest
-            enough = partial(does, own, speed)
-            high = next((peak for peak in (torque * _STRONGER).tolist() if enough(peak)), None)
-            if high is not None:
-                _, peak = narrowed(enough, high / _STRONGER[0], high, ADVICE_PRECISION)
-                mass = model.mass * peak / (denser * model.peak_torque)
-                heavier = model.name if denser > 1.0 else ""
-                found.append(NeededMotor(peak, speed, mass, problem.bus_voltage, heavier))
-        weakest = min((need.peak_torque for need in found), default=0.0)
-        for need in found:
-            if need.peak_torque <= _AS_WEAK * weakest:
-                return need
+    for density_factor in _TORQUE_DENSITY_FACTORS:
+        scaled_model, motors = replace(model, peak_torque=density_factor * model.peak_torque), []
+        for speed_factor in _SPEED_FACTORS:
+            speed = speed_factor * momentum / largest
+            is_enough = partial(is_feasible, scaled_model, speed)
+            highest = next(
+                (peak for peak in (torque * _TORQUE_FACTORS).tolist() if is_enough(peak)), None
+            )
+            if highest is not None:
+                _, peak = narrowed(
+                    is_enough, highest / _TORQUE_FACTORS[0], highest, ADVICE_PRECISION
+                )
+                mass = model.mass * peak / (density_factor * model.peak_torque)
+                heavier = model.name if density_factor > 1.0 else ""
+                motors.append(NeededMotor(peak, speed, mass, problem.bus_voltage, heavier))
+        weakest = min((motor.peak_torque for motor in motors), default=0.0)
+        for motor in motors:
+            if motor.peak_torque <= _SIMILAR_TORQUE * weakest:
+                return motor
     return None
 
 
 def _scaled(model: Motor, peak_torque: float, speed: float, voltage: float) -> Motor:
     """The model scaled to a peak torque [N m] and wound for a speed [rad/s] at a voltage [V]."""
     assert model.peak_torque is not None
-    larger = peak_torque / model.peak_torque
-    stall = _STALL[0]
+    ratio = peak_torque / model.peak_torque
+    stall = _STALL_RATIO_RANGE[0]
     if model.torque_constant and model.resistance and model.rated_voltage:
-        own = model.rated_voltage * model.torque_constant / model.resistance / model.peak_torque
-        stall = float(np.clip(own, *_STALL))
+        stall_ratio = (
+            model.rated_voltage * model.torque_constant / model.resistance / model.peak_torque
+        )
+        stall = float(np.clip(stall_ratio, *_STALL_RATIO_RANGE))
     constant = voltage / speed
 
     def scaled(figure: float | None, power: float) -> float | None:
-        return None if figure is None else figure * larger**power
+        return None if figure is None else figure * ratio**power
 
     return replace(
         model,

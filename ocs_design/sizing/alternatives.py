@@ -21,7 +21,7 @@ from ocs_design.requirement.sweep import Task
 from ocs_design.requirement.vocabulary import DISC, RING
 from ocs_design.sizing.changes import Change, Lever, changes, levers, options
 from ocs_design.sizing.design import design_device
-from ocs_design.sizing.limits import Progress, narrowed, smallest_factor, unseen
+from ocs_design.sizing.limits import Progress, ignore_progress, narrowed, smallest_factor
 from ocs_design.sizing.on_robot import OnRobot
 from ocs_design.sizing.selection.problem import (
     Candidate,
@@ -277,7 +277,11 @@ _PRECISION = 0.005
 
 
 def lighter_by(
-    mass: float, task: Task, choice: DriveChoice, driving_maneuver: str, progress: Progress = unseen
+    mass: float,
+    task: Task,
+    choice: DriveChoice,
+    driving_maneuver: str,
+    progress: Progress = ignore_progress,
 ) -> tuple[Alternative, ...]:
     """Changes of the specification, each of which saves the given mass.
 

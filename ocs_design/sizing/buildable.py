@@ -59,7 +59,7 @@ _JOINT_CURES = {
     SCREWS_SHOCK: "give a place where the plate's screws stand farther apart (--position)",
 }
 _BOND_CURE = "choose a slower motor, or a disc in place of the ring (--wheel disc)"
-_SPARE = ("shaft joint, screws in shear", FOOT_SHOCK, FLOOR_SHOCK)
+_NOT_CRITICAL = ("shaft joint, screws in shear", FOOT_SHOCK, FLOOR_SHOCK)
 """Joints that may fall short: friction carries the torque, and parts too weak in PETG can be
 milled."""
 
@@ -125,20 +125,22 @@ def buildable(
             cure = _BOND_CURE
         if joint.capacity is None:
             points.append(OpenPoint(what=f"{joint.name}: {joint.note}", cure=cure))
-        elif joint.margin is not None and joint.margin < 1.0 and joint.name not in _SPARE:
-            asked, there = (quantity(each, joint.unit) for each in (joint.demand, joint.capacity))
-            what = f"{joint.name}: {asked} required, {there} available"
+        elif joint.margin is not None and joint.margin < 1.0 and joint.name not in _NOT_CRITICAL:
+            required, available = (
+                quantity(value, joint.unit) for value in (joint.demand, joint.capacity)
+            )
+            what = f"{joint.name}: {required} required, {available} available"
             points.append(OpenPoint(what=what, cure=cure))
     points += mounted
     for margin in margins:
-        short = margin.margin is not None and margin.margin < 1.0 - TOLERANCE
-        if short and margin.name in CURES and margin.capacity is not None:
-            asked, there = (
-                quantity(each, margin.unit) for each in (margin.demand, margin.capacity)
+        falls_short = margin.margin is not None and margin.margin < 1.0 - TOLERANCE
+        if falls_short and margin.name in CURES and margin.capacity is not None:
+            required, available = (
+                quantity(value, margin.unit) for value in (margin.demand, margin.capacity)
             )
-            by = f" by {margin.scenario}" if margin.scenario else ""
-            what = f"{margin.name}: {asked} required{by}, {there} allowed"
+            maneuver_text = f" by {margin.scenario}" if margin.scenario else ""
+            what = f"{margin.name}: {required} required{maneuver_text}, {available} allowed"
             points.append(OpenPoint(what=what, cure=CURES[margin.name]))
-    known = missing or (mounting is not None and mounting.known)
-    settled = known or len(points) > len(mounted)
-    return Buildable(yes=not points if settled else None, open=tuple(points))
+    shape_known = missing or (mounting is not None and mounting.known)
+    decided = shape_known or len(points) > len(mounted)
+    return Buildable(yes=not points if decided else None, open=tuple(points))

@@ -10,7 +10,7 @@ from ocs_design.device.answers import Front, FrontDevice, FrontPoint, LayoutAnsw
 from ocs_design.requirement.sweep import Sweep, Task
 from ocs_design.requirement.vocabulary import DETECTION
 from ocs_design.requirement.writing import specification_to_toml, with_absolute_files
-from ocs_design.sizing.limits import Progress, unseen
+from ocs_design.sizing.limits import Progress, ignore_progress
 from ocs_design.sizing.mounting import mounting_of, mounting_open_points
 from ocs_design.sizing.selection.device import maneuvers_survived
 from ocs_design.sizing.sized import Designed
@@ -24,7 +24,7 @@ def draw_front(
     sweep: Sweep,
     values: Sequence[float],
     choose: Choose,
-    progress: Progress = unseen,
+    progress: Progress = ignore_progress,
 ) -> Front:
     """Front of the lightest device at each value, or the reason why there is none.
 

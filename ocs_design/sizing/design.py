@@ -38,7 +38,7 @@ BY_HAND = "by hand"
 """Name for the criterion of an incidence, or the source of a spin inertia, that the user gave."""
 
 
-KICK_ROUNDS, _KICK_SETTLED = 3, 0.01
+KICK_ROUNDS, _KICK_TOLERANCE = 3, 0.01
 """Number of times a device is sized again for kicks about its own centre of mass, and change of
 their angular impulse, relative to the largest, that counts as converged."""
 
@@ -70,39 +70,44 @@ def design_device(
     # The device must not depend on the searches for other devices.
     failed = FailedSearches()
     tried: list[tuple[float, float, Designed]] = []
-    before: tuple[FloatArray, FloatArray] | None = None
+    previous: tuple[FloatArray, FloatArray] | None = None
     com = task.robot.com
     for _ in range(1 + KICK_ROUNDS):
         try:
             designed = _designed(task, failed, ranked=ranked, reserve=reserve, near=near)
         except Infeasible:
-            if all(short > 0.0 for short, _, _ in tried):
-                asked = task.resolved.requirement
-                calmer = asked.changed(lambda each: each.calmer())
-                if calmer.maneuvers == asked.maneuvers:
+            if all(excess > 0.0 for excess, _, _ in tried):
+                requirement = task.resolved.requirement
+                calmer = requirement.changed(lambda maneuver: maneuver.calmer())
+                if calmer.maneuvers == requirement.maneuvers:
                     raise
                 # Standing up more slowly takes less torque and more momentum.
                 with suppress(Infeasible):
                     return design_device(task.asking(calmer), ranked=ranked, reserve=reserve)
                 raise
             break
-        whole, asked = designed.sized.total, task.resolved.requirement
-        own = asked.on(whole)
-        most, change = np.abs(own.kicks).max(initial=0.0), np.abs(own.kicks - asked.kicks)
-        settled = change.max(initial=0.0) <= _KICK_SETTLED * most
-        short = max(most - (1.0 + _KICK_SETTLED) * np.abs(asked.kicks).max(initial=0.0), 0.0)
-        designed = replace(designed, requirement=own)
-        if settled:
+        total, requirement = designed.sized.total, task.resolved.requirement
+        actual = requirement.on(total)
+        largest = np.abs(actual.kicks).max(initial=0.0)
+        change = np.abs(actual.kicks - requirement.kicks)
+        converged = change.max(initial=0.0) <= _KICK_TOLERANCE * largest
+        excess = max(
+            largest - (1.0 + _KICK_TOLERANCE) * np.abs(requirement.kicks).max(initial=0.0), 0.0
+        )
+        designed = replace(designed, requirement=actual)
+        if converged:
             return designed
-        tried.append((short, designed.device.mass, designed))
-        found, off = whole.com, whole.com - com
-        com = found
-        if before is not None:
-            bend = off - before[1]
-            com = found - (found - before[0]) * (off @ bend) / (bend @ bend)
-        before = found, off
-        task = task.asking(asked.on(replace(whole, com=com)))
-    return min(tried, key=lambda each: each[:2])[2]
+        tried.append((excess, designed.device.mass, designed))
+        com_found, offset = total.com, total.com - com
+        com = com_found
+        if previous is not None:
+            change_of_offset = offset - previous[1]
+            com = com_found - (com_found - previous[0]) * (offset @ change_of_offset) / (
+                change_of_offset @ change_of_offset
+            )
+        previous = com_found, offset
+        task = task.asking(requirement.on(replace(total, com=com)))
+    return min(tried, key=lambda attempt: attempt[:2])[2]
 
 
 def _designed(
@@ -134,15 +139,15 @@ def _designed(
             and search.footing(device, formed) is not None
         ):
             with suppress(Infeasible):
-                again = _by_selection(task, formed, search, reserve, ranked=ranked)
-                designed = designed if again.device.plate is None else again
-    device, most = designed.device, task.specification.ocs.mass_max
+                on_formed_block = _by_selection(task, formed, search, reserve, ranked=ranked)
+                designed = designed if on_formed_block.device.plate is None else on_formed_block
+    device, mass_max = designed.device, task.specification.ocs.mass_max
     # This device is already the lightest: no search is needed.
-    if most is None or device.mass <= most:
+    if mass_max is None or device.mass <= mass_max:
         return designed
     raise Infeasible(
         f"The lightest device that meets all requirements weighs {DEVICE_MASS.figure(device.mass)} "
-        f"(all modules); ocs.mass_max allows {DEVICE_MASS.figure(most)}.",
+        f"(all modules); ocs.mass_max allows {DEVICE_MASS.figure(mass_max)}.",
         binding=[DEVICE_MASS.name],
         required_spin_inertia=device.flywheel.spin_inertia,
         largest_spin_inertia=device.flywheel.spin_inertia,
@@ -191,13 +196,15 @@ def _by_selection(
         problem.requirement.standing_height,
         ballistic=specification.validation.ballistic is True,
     )
-    asked, ringed = problem.requirement, None
-    found = search.mounted(problem, errors, reserve, ranked=ranked)
-    problem, selection, reserve = found.problem, found.selection, found.reserve
+    requirement, in_rings = problem.requirement, None
+    mounted = search.mounted(problem, errors, reserve, ranked=ranked)
+    problem, selection, reserve = mounted.problem, mounted.selection, mounted.reserve
     if specification.ocs.guard == CONTAINING:
         problem, selection = search.in_rings(problem, selection.best)
         best = selection.best
-        ringed = device_at(replace(problem, requirement=asked), best, best.incidence) or best
+        in_rings = (
+            device_at(replace(problem, requirement=requirement), best, best.incidence) or best
+        )
     if criterion is not None:
         problem = replace(problem, incidence=selection.best.incidence)
     # The lightest on its plate need not be the one that led the search.
@@ -209,36 +216,37 @@ def _by_selection(
         # CasADi takes a third of a second to import.
         from ocs_design.sizing.trajectory.co_design import co_design  # noqa: PLC0415
 
-        tried = co_design(problem, best)
-        if tried.adopted:
+        co_design_result = co_design(problem, best)
+        if co_design_result.adopted:
             # The co-design counted the selected device's plate.
-            own = search.with_plate(tried.device, problem)
-            tried = replace(tried, device=own, found_mass=own.mass)
-            if own.mass >= best.mass:
+            plated = search.with_plate(co_design_result.device, problem)
+            co_design_result = replace(co_design_result, device=plated, found_mass=plated.mass)
+            if plated.mass >= best.mass:
                 note = "the selection stands: a heavier plate outweighs what the wheels would save"
-                tried = replace(tried, adopted=False, note=note, device=best)
-        chosen = tried.device
+                co_design_result = replace(co_design_result, adopted=False, note=note, device=best)
+        chosen = co_design_result.device
         figures = {
-            "mass": tried.found_mass,
-            "violation": tried.fine_violation,
-            "remark": tried.note,
+            "mass": co_design_result.found_mass,
+            "violation": co_design_result.fine_violation,
+            "remark": co_design_result.note,
         }
-        co_designed = recorded(CoDesignRecord, tried, **figures)
+        co_designed = recorded(CoDesignRecord, co_design_result, **figures)
     name = LIGHTEST if criterion is None else str(criterion)
 
-    def resized(other: Reserve) -> float | None:
+    def mass_with_reserve(changed_reserve: Reserve) -> float | None:
         """Mass of the selected parts and the plate, sized with another reserve [kg]."""
-        keeping = replace(
-            problem, requirement=other.applied_to(problem.requirement, incidence_is_free=False)
+        reserved = replace(
+            problem,
+            requirement=changed_reserve.applied_to(problem.requirement, incidence_is_free=False),
         )
-        device = device_at(keeping, selection.best, chosen.incidence)
+        device = device_at(reserved, selection.best, chosen.incidence)
         return None if device is None else device.modules_mass + chosen.plate_mass
 
-    def least() -> float:
+    def mass_without_reserve() -> float:
         """Mass of the device without a reserve [kg]."""
-        if not any(each.demand > 1.0 for each in reserve.maneuvers.values()):
+        if not any(kept.demand > 1.0 for kept in reserve.maneuvers.values()):
             return chosen.mass
-        nominal = ringed or search.without_reserve(found)
+        nominal = in_rings or search.without_reserve(mounted)
         return search.with_plate(nominal, problem).mass
 
     # A co-design makes the selected device smaller, and its plate with it.
@@ -255,15 +263,17 @@ def _by_selection(
         criterion=BY_HAND if specified else name,
         choice=DriveChoice(problem, selection, chosen, co_designed, lacks_mount),
         reserve=reserve,
-        account=lambda: reserve_record(reserve, errors, problem, chosen, resized, nominal=least()),
+        account=lambda: reserve_record(
+            reserve, errors, problem, chosen, mass_with_reserve, nominal=mass_without_reserve()
+        ),
     )
 
 
-SURVIVORS = ("triad", *MORE_PAIRS[:1], PYRAMID)
+REDUNDANT_LAYOUTS = ("triad", *MORE_PAIRS[:1], PYRAMID)
 """Layouts that control roll and pitch with any one wheel missing, the fewest wheels first."""
 
 
-def survivors(specification: Specification, robot: Robot, progress: Progress) -> str:
+def layouts_that_survive(specification: Specification, robot: Robot, progress: Progress) -> str:
     """Layouts that would survive a stopped drive, with their masses, for a layout that cannot.
 
     Args:
@@ -271,22 +281,22 @@ def survivors(specification: Specification, robot: Robot, progress: Progress) ->
         progress: called with the fraction done.
     """
     masses: dict[str, float] = {}
-    against: list[str] = []
-    for done, layout in enumerate(SURVIVORS):
-        progress(done / len(SURVIVORS))
+    refusals: list[str] = []
+    for done, layout in enumerate(REDUNDANT_LAYOUTS):
+        progress(done / len(REDUNDANT_LAYOUTS))
         ocs = replace(
             specification.ocs, layout=layout, axes=None, position=None, alpha=None,
             alpha_criterion=None,
         )  # fmt: skip
-        asked = replace(specification, ocs=ocs)
-        if any(contradictions(asked)):
+        variant = replace(specification, ocs=ocs)
+        if any(contradictions(variant)):
             continue
         try:
-            masses[layout] = design_device(Task.of(asked, robot), ranked=False).device.mass
+            masses[layout] = design_device(Task.of(variant, robot), ranked=False).device.mass
         except Infeasible as error:
-            against.append(f"{layout}: {error.message.rstrip('.')}")
+            refusals.append(f"{layout}: {error.message.rstrip('.')}")
     if not masses:
-        why = f" ({'; '.join(against)})" if against else ""
+        why = f" ({'; '.join(refusals)})" if refusals else ""
         return f"No layout that survives it has a feasible device either{why}."
     text = some_of([f"`--layout {name}` {1e3 * mass:.0f} g" for name, mass in masses.items()])
     return (
@@ -320,8 +330,8 @@ def lightest_device(task: Task) -> FrontDevice:
             hint="leave out --motor none, or motor.name in the specification",
         )
     specified = task.specification
-    alone = replace(specified, ocs=replace(specified.ocs, co_design=False))
-    designed = design_device(replace(task, specification=alone), ranked=False)
+    without_co_design = replace(specified, ocs=replace(specified.ocs, co_design=False))
+    designed = design_device(replace(task, specification=without_co_design), ranked=False)
     choice = designed.choice
     assert choice is not None, "there are motors to choose from"
     best = choice.chosen

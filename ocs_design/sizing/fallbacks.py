@@ -13,10 +13,10 @@ from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.vocabulary import AUTO, LIGHTEST, MORE_PAIRS, RELIABILITY, WHEELS
 from ocs_design.sizing.advice import advice_on
 from ocs_design.sizing.limits import Progress
-from ocs_design.sizing.on_robot import NeverHeld
+from ocs_design.sizing.on_robot import NoMountHolds
 from ocs_design.sizing.selection.rejections import NO_ROOM, Refused
 
-LESS_SURE = (0.9, 0.8)
+LOWER_RELIABILITIES = (0.9, 0.8)
 """Reliabilities that are tried in turn where no device has the default one."""
 
 
@@ -31,16 +31,16 @@ class Attempt:
 
     Attributes:
         specification: that was tried.
-        why: message of its refusal, or the mass of its device.
+        reason: message of its refusal, or the mass of its device.
         error: the refusal; None: a lighter device was taken.
     """
 
     specification: Specification
-    why: str
-    error: Refused | NeverHeld | None = None
+    reason: str
+    error: Refused | NoMountHolds | None = None
 
     @classmethod
-    def refused(cls, specification: Specification, error: Refused | NeverHeld) -> "Attempt":
+    def refused(cls, specification: Specification, error: Refused | NoMountHolds) -> "Attempt":
         """An attempt that gave no device."""
         return cls(specification, error.message, error)
 
@@ -63,26 +63,28 @@ def attempts(specification: Specification) -> Iterator[Specification]:
     for layout in (None, *MORE_PAIRS):
         for criterion in (specified.alpha_criterion, LIGHTEST)[: 1 + free]:
             ocs = replace(specified, layout=layout, alpha_criterion=criterion)
-            asked = replace(specification, ocs=ocs)
-            if ocs != specified and not any(contradictions(asked)):
-                yield asked
+            variant = replace(specification, ocs=ocs)
+            if ocs != specified and not any(contradictions(variant)):
+                yield variant
 
 
-def less_sure(specification: Specification, tried: Sequence[Attempt]) -> Iterator[Specification]:
+def with_lower_reliability(
+    specification: Specification, tried: Sequence[Attempt]
+) -> Iterator[Specification]:
     """Attempts that failed only because of their reserve, with a lower reliability.
 
     None where a reliability is specified.
     """
     if specification.requirement.reliability is not None:
         return
-    short = [
-        each.specification
-        for each in tried
-        if isinstance(each.error, Refused) and each.error.for_reserve
+    lacking_reserve = [
+        attempt.specification
+        for attempt in tried
+        if isinstance(attempt.error, Refused) and attempt.error.for_reserve
     ]
-    for level in LESS_SURE:
-        for asked in short:
-            yield replace(asked, requirement=replace(asked.requirement, reliability=level))
+    for level in LOWER_RELIABILITIES:
+        for variant in lacking_reserve:
+            yield replace(variant, requirement=replace(variant.requirement, reliability=level))
 
 
 def more_wheels_may_do(device: Device, robot_mass: float) -> bool:
@@ -90,45 +92,53 @@ def more_wheels_may_do(device: Device, robot_mass: float) -> bool:
     return len(device.modules) * (device.motor.mass or 0.0) > HEAVY_MOTORS * robot_mass
 
 
-def attempt_text(specification: Specification, asked: Specification) -> str:
+def attempt_text(specification: Specification, variant: Specification) -> str:
     """What an attempt sizes, such as `a device of 4 wheels at its lightest incidence`."""
-    layout, reliability = asked.ocs.layout, asked.requirement.reliability
-    what = "the device"
+    layout, reliability = variant.ocs.layout, variant.requirement.reliability
+    text = "the device"
     if layout is not None and layout != specification.ocs.layout:
-        what = f"a device of {WHEELS[layout]} wheels"
-    if asked.ocs.alpha_criterion != specification.ocs.alpha_criterion:
-        what += " at its lightest incidence"
+        text = f"a device of {WHEELS[layout]} wheels"
+    if variant.ocs.alpha_criterion != specification.ocs.alpha_criterion:
+        text += " at its lightest incidence"
     if reliability is not None and reliability != specification.requirement.reliability:
-        what += f" for {reliability:.0%} of robots"
-    return what
+        text += f" for {reliability:.0%} of robots"
+    return text
 
 
 def substitutions(
-    specification: Specification, asked: Specification, tried: Sequence[Attempt]
+    specification: Specification, variant: Specification, tried: Sequence[Attempt]
 ) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Substitutes for unspecified values, and why: as assumptions, and as warnings."""
     assumptions: list[str] = []
-    few: list[str] = []
-    specified, more, less = (
+    warnings: list[str] = []
+    specified, layout, reliability = (
         specification.ocs.layout,
-        asked.ocs.layout,
-        asked.requirement.reliability,
+        variant.ocs.layout,
+        variant.requirement.reliability,
     )
-    if more is not None and more != specified:
-        why = next(each.why for each in tried if each.specification.ocs.layout == specified)
-        assumptions.append(f"Layout: {more}, {WHEELS[more]} wheels. With two: {why}")
+    if layout is not None and layout != specified:
+        reason = next(
+            attempt.reason for attempt in tried if attempt.specification.ocs.layout == specified
+        )
+        assumptions.append(f"Layout: {layout}, {WHEELS[layout]} wheels. With two: {reason}")
         if specification.motor.name not in {None, AUTO}:
-            few.append(f"{WHEELS[more]} wheels are used. With two: {why}")
+            warnings.append(f"{WHEELS[layout]} wheels are used. With two: {reason}")
     criterion = specification.ocs.alpha_criterion
-    if asked.ocs.alpha_criterion != criterion:
-        at_alpha = replace(asked.ocs, alpha_criterion=criterion)
-        refused = (each.why for each in tried if each.specification.ocs == at_alpha)
-        assumptions.append(f"Incidence: the lightest. At alpha*: {next(refused, tried[-1].why)}")
-    if less is not None and less != specification.requirement.reliability:
-        why = next(each.why for each in tried if each.specification.ocs == asked.ocs)
-        assumptions.append(f"Reliability: {less:.0%} of robots. For {RELIABILITY:.0%}: {why}")
-        few.append(f"sized for {less:.0%} of robots: no device is feasible for {RELIABILITY:.0%}")
-    return tuple(assumptions), tuple(few)
+    if variant.ocs.alpha_criterion != criterion:
+        at_alpha = replace(variant.ocs, alpha_criterion=criterion)
+        refused = (attempt.reason for attempt in tried if attempt.specification.ocs == at_alpha)
+        assumptions.append(f"Incidence: the lightest. At alpha*: {next(refused, tried[-1].reason)}")
+    if reliability is not None and reliability != specification.requirement.reliability:
+        reason = next(
+            attempt.reason for attempt in tried if attempt.specification.ocs == variant.ocs
+        )
+        assumptions.append(
+            f"Reliability: {reliability:.0%} of robots. For {RELIABILITY:.0%}: {reason}"
+        )
+        warnings.append(
+            f"sized for {reliability:.0%} of robots: no device is feasible for {RELIABILITY:.0%}"
+        )
+    return tuple(assumptions), tuple(warnings)
 
 
 def closest_refusal(tried: Sequence[Attempt], robot_mass: float) -> Refused:
@@ -140,23 +150,25 @@ def closest_refusal(tried: Sequence[Attempt], robot_mass: float) -> Refused:
     without a mount.
 
     Raises:
-        NeverHeld: the first refusal, where every attempt failed for want of a mount.
+        NoMountHolds: the first refusal, where every attempt failed for want of a mount.
     """
-    refused = [each.error for each in tried if isinstance(each.error, Refused)]
+    refused = [attempt.error for attempt in tried if isinstance(attempt.error, Refused)]
     if not refused:
-        raise next(each.error for each in tried if each.error is not None)
+        raise next(attempt.error for attempt in tried if attempt.error is not None)
     if refused[0].nearest.reason in NO_ROOM:
         return refused[0]
-    held = [each for each in refused if each.problem.robot.mass > robot_mass]
-    at_angle = [each for each in refused if each.problem.incidence is not None]
-    return min(held or at_angle, key=lambda each: each.nearest.shortfall, default=refused[0])
+    mounted = [refusal for refusal in refused if refusal.problem.robot.mass > robot_mass]
+    at_incidence = [refusal for refusal in refused if refusal.problem.incidence is not None]
+    return min(
+        mounted or at_incidence, key=lambda refusal: refusal.nearest.shortfall, default=refused[0]
+    )
 
 
 def advised(
     refusal: Refused, specification: Specification, tried: Sequence[Attempt], progress: Progress
 ) -> Refused:
     """The refusal, with the single changes that would help, where every attempt was refused."""
-    refused = [each.error for each in tried if isinstance(each.error, Refused)]
+    refused = [attempt.error for attempt in tried if isinstance(attempt.error, Refused)]
     return advice_on(
         refusal,
         progress,

@@ -40,7 +40,7 @@ from ocs_design.sizing.module_radii import largest_radius, smallest_radius
 _PARTS = 12
 """Number of parts into which each round divides the interval of radii; it keeps two of them."""
 
-_PER_DIGIT = 4.0 / 3.0
+_ROUNDS_PER_DIGIT = 4.0 / 3.0
 """Rounds per digit of the radius."""
 
 # Changing the height changes C by under a fifth as much, and the cuts by more.
@@ -50,13 +50,13 @@ _BORE_ROUNDS = 5
 _DIGITS = 9
 """Digits to which radius and bore are solved; with cuts or holes, one iteration for each."""
 
-_MOST_BENT = 0.5
+_E_MAX = 0.5
 """Largest e (see the module's docstring); e is small unless the bore is tiny."""
 
 # Tolerance that keeps limits which meet in one point compatible after rounding.
 _ROUNDING = 1e-12
 # Least (R^2 - r^2) / R^2 of a rim.
-_NO_WALL = 1e-9
+_WALL_SHARE_MIN = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,7 +95,7 @@ def lightest_module(
         low, high = np.broadcast_arrays(low, high)
         # Several radii at once: for few modules, a NumPy call costs more than its work.
         parts = np.linspace(0.0, 1.0, _PARTS + 1).reshape(-1, *(1,) * low.ndim)
-        for _ in range(round(_PER_DIGIT * digits)):
+        for _ in range(round(_ROUNDS_PER_DIGIT * digits)):
             radii = low + parts * (high - low)
             mass = _shape(inertia, radii, limits, shell, digits).mass
             # At an end of the interval, rounding may leave no rim.
@@ -159,7 +159,7 @@ def _rim_height(
     square = outer**2
     height = of_rim / (square**2 - bore**2)
     # Without a wall there is no rim: the quotient is 0 / 0, or rounding error.
-    return of_rim, np.where(square - bore > _NO_WALL * square, height, np.nan)
+    return of_rim, np.where(square - bore > _WALL_SHARE_MIN * square, height, np.nan)
 
 
 def _best_bore(
@@ -174,7 +174,7 @@ def _best_bore(
     height = np.asarray(limits.height_min) + np.zeros_like(outer_radius)
     weight, bore_weight = limits.hoop_weights
     # These do not depend on the rim's height and mass.
-    fixed = (
+    fixed_bounds = (
         np.maximum(np.asarray(limits.inner_radius_min) ** 2, (BORE_SHARE * outer_radius) ** 2),
         np.minimum(
             np.minimum(
@@ -183,32 +183,32 @@ def _best_bore(
             (limits.stretch_max - weight * square) / bore_weight,
         ),
     )
-    lower, upper = _bounds(inertia, outer_radius, limits, fixed, None)
-    bent: float | FloatArray = 0.0
-    holed = bool(np.any(np.asarray(limits.web_weight) < 1.0))
-    rounds = digits if limits.cuts.any or holed else min(digits, _BORE_ROUNDS)
-    for left in range(rounds - 1, -1, -1):
+    lower, upper = _bounds(inertia, outer_radius, limits, fixed_bounds, None)
+    e: float | FloatArray = 0.0
+    has_holes = bool(np.any(np.asarray(limits.web_weight) < 1.0))
+    rounds = digits if limits.cuts.any or has_holes else min(digits, _BORE_ROUNDS)
+    for rounds_left in range(rounds - 1, -1, -1):
         per_height = shell.mass_per_height(outer_radius, height)
         ratio = per_height / (np.pi * limits.density)
-        pull = ratio / (1.0 - bent)
-        free = square + pull - np.sqrt(pull * (2.0 * square + pull))
-        bore = np.clip(free, lower, upper)
-        if not left:
+        q = ratio / (1.0 - e)
+        stationary = square + q - np.sqrt(q * (2.0 * square + q))
+        bore = np.clip(stationary, lower, upper)
+        if not rounds_left:
             break
         of_rim, height = _rim_height(inertia, outer_radius, bore, limits)
-        both = square + bore
-        over = both**2 / (of_rim + limits.web * (bore**2 - square**2))
-        bent = 0.0
+        squares = square + bore
+        scale = squares**2 / (of_rim + limits.web * (bore**2 - square**2))
+        e = 0.0
         if limits.cuts.any:
             # e of the module's docstring, from derivatives by r^2: those by r over 2 r.
             inner = np.sqrt(bore)
             spread = limits.cuts.spread_slope(inner, outer_radius)
-            spread = spread * (1.0 + ratio / (square - bore)) / both
-            more = (spread - limits.cuts.area_slope()) / (2.0 * inner)
-            bent = np.clip(more * over, -_MOST_BENT, _MOST_BENT)
-            lower, upper = _bounds(inertia, outer_radius, limits, fixed, inner)
-        if holed:
-            bent = bent + np.minimum((limits.heavy_web - limits.web) * over, 0.0)
+            spread = spread * (1.0 + ratio / (square - bore)) / squares
+            gain = (spread - limits.cuts.area_slope()) / (2.0 * inner)
+            e = np.clip(gain * scale, -_E_MAX, _E_MAX)
+            lower, upper = _bounds(inertia, outer_radius, limits, fixed_bounds, inner)
+        if has_holes:
+            e = e + np.minimum((limits.heavy_web - limits.web) * scale, 0.0)
     return bore
 
 
@@ -266,29 +266,29 @@ _TOUCHING = 1e-5
 """Relative distance within which a limit is active; a hundredth of what a lathe can resolve."""
 
 
-def binding_limits(shape: ModuleShape, limits: RimLimits, room: Envelope) -> tuple[str, ...]:
+def binding_limits(shape: ModuleShape, limits: RimLimits, envelope: Envelope) -> tuple[str, ...]:
     """Names of the limits that are active for one module, as in the specification.
 
     Args:
         shape: of the module. limits: of its rim; both scalars.
-        room: as specified, without the changes for web and hub.
+        envelope: as specified, without the changes for web and hub.
     """
     at, inner, outer = limits, float(shape.inner_radius), float(shape.outer_radius)
     height = float(shape.height)
     weight, bore_weight = at.hoop_weights
     stretched = weight * outer**2 + bore_weight * inner**2
-    bore = HUB if at.inner_radius_min > room.inner_radius_min else "r_min"
+    bore = HUB if at.inner_radius_min > envelope.inner_radius_min else "r_min"
     if np.isfinite(at.inner_radius_max):
         bore = BELL
     if at.lightened_bore >= at.inner_radius_min > 0.0:
         bore = LIGHTENING_HOLES
     stress = HOLED_STRESS if at.stretch_left < 1.0 else "hoop_stress"
     seat = CUT_HEIGHT if at.cuts.height_min >= at.height_min else WEB
-    flat = seat if at.height_min > room.height_min else "h_min"
-    wall = CUT_WALL if at.wall_min > room.wall_min else "wall_min"
-    tall = BELL if bore == BELL and at.height_max < room.height_max else "h_max"
-    largest = BOND if at.outer_radius_max < room.outer_radius_max else "r_max"
-    touched: dict[str, tuple[Any, Any]] = {
+    flat = seat if at.height_min > envelope.height_min else "h_min"
+    wall = CUT_WALL if at.wall_min > envelope.wall_min else "wall_min"
+    tall = BELL if bore == BELL and at.height_max < envelope.height_max else "h_max"
+    largest = BOND if at.outer_radius_max < envelope.outer_radius_max else "r_max"
+    active_candidates: dict[str, tuple[Any, Any]] = {
         largest: (outer, at.outer_radius_max),
         tall: (height, at.height_max),
         stress: (stretched, at.stretch_max),
@@ -299,7 +299,9 @@ def binding_limits(shape: ModuleShape, limits: RimLimits, room: Envelope) -> tup
         MOUNT: (outer, at.outer_radius_min),
     }
     names = tuple(
-        name for name, (value, limit) in touched.items() if abs(value - limit) <= _TOUCHING * value
+        name
+        for name, (value, limit) in active_candidates.items()
+        if abs(value - limit) <= _TOUCHING * value
     )
     radius_is_held = {"r_max", BOND, stress, MOUNT} & set(names) or {flat, wall} <= set(names)
     return names if radius_is_held else (*names, HOUSING)

@@ -93,7 +93,7 @@ LIMITS: Mapping[str, Limit] = {
 """All limits by name."""
 
 
-MOST_CHANGE = 1e3
+LARGEST_CHANGE = 1e3
 """A limit that must be multiplied or divided by more than this to help is not advised."""
 
 PRECISION = 1e-6
@@ -119,22 +119,22 @@ Progress: TypeAlias = Callable[[float], None]
 """Called with the fraction done."""
 
 
-def unseen(share: float) -> None:
+def ignore_progress(share: float) -> None:
     """Progress that is ignored."""
 
 
 def narrowed(
-    does: Callable[[float], bool], low: float, high: float, precision: float
+    succeeds: Callable[[float], bool], low: float, high: float, precision: float
 ) -> tuple[float, float]:
     """Bisection on a logarithmic scale: a value that fails and one, slightly larger, that succeeds.
 
     Args:
-        does: whether a value succeeds. low: a value that fails. high: one that succeeds.
+        succeeds: whether a value succeeds. low: a value that fails. high: one that succeeds.
         precision: largest relative difference of the result's two values.
     """
     while high > (1.0 + precision) * low:
         middle = sqrt(low * high)
-        low, high = (low, middle) if does(middle) else (middle, high)
+        low, high = (low, middle) if succeeds(middle) else (middle, high)
     return low, high
 
 
@@ -144,9 +144,9 @@ def smallest_changes(
     possible: Callable[[Problem], bool],
     *,
     precision: float = PRECISION,
-    most: Callable[[Limit], float] = lambda _: MOST_CHANGE,
+    most: Callable[[Limit], float] = lambda _: LARGEST_CHANGE,
     conceivable: Callable[[Problem], bool] | None = None,
-    progress: Progress = unseen,
+    progress: Progress = ignore_progress,
 ) -> dict[Limit, float]:
     """Values of single limits that just make a problem feasible, the gentlest change first [SI].
 
@@ -162,28 +162,32 @@ def smallest_changes(
     """
     factors: dict[Limit, float | None] = {}
     for index, limit in enumerate(limits):
-        now, start, far = problem.value_of(limit), 1.0, most(limit)
+        present, start, largest = problem.value_of(limit), 1.0, most(limit)
 
         def at(
-            holds: Callable[[Problem], bool], limit: Limit = limit, now: float = now
+            holds: Callable[[Problem], bool], limit: Limit = limit, present: float = present
         ) -> Callable[[float], bool]:
             """A test of the problem, as a function of the factor by which the limit is loosened."""
-            return lambda factor: holds(problem.with_limit(limit, limit.loosened(now, factor)))
+            return lambda factor: holds(problem.with_limit(limit, limit.loosened(present, factor)))
 
-        if isfinite(now) and now > 0.0:
+        if isfinite(present) and present > 0.0:
             if conceivable is not None:
                 # A bound's edge, which is quick to find, is where to start.
-                can = at(possible)(far)
-                start = narrowed(at(conceivable), start, far, precision)[0] if can else far
-            factors[limit] = smallest_factor(at(possible), start, far, precision)
+                feasible_at_all = at(possible)(largest)
+                start = (
+                    narrowed(at(conceivable), start, largest, precision)[0]
+                    if feasible_at_all
+                    else largest
+                )
+            factors[limit] = smallest_factor(at(possible), start, largest, precision)
         progress((index + 1) / len(limits))
-    found = {limit: factor for limit, factor in factors.items() if factor is not None}
-    ordered = sorted(found.items(), key=lambda item: item[1])
+    known = {limit: factor for limit, factor in factors.items() if factor is not None}
+    ordered = sorted(known.items(), key=lambda item: item[1])
     return {limit: limit.loosened(problem.value_of(limit), factor) for limit, factor in ordered}
 
 
 def smallest_factor(
-    mends: Callable[[float], bool], start: float, most: float, precision: float
+    helps: Callable[[float], bool], start: float, largest: float, precision: float
 ) -> float | None:
     """The smallest factor on a limit that makes the design feasible; None: there is none.
 
@@ -191,16 +195,16 @@ def smallest_factor(
     far may fail where a smaller change succeeds, since a larger wheel also loads the robot.
 
     Args:
-        mends: whether a design is feasible with a factor.
-        start: factor of at least 1 that fails. most: largest factor to try.
+        helps: whether a design is feasible with a factor.
+        start: factor of at least 1 that fails. largest: largest factor to try.
         precision: relative precision of the result.
     """
     low, step = start, 1.0 + precision
-    while low < most:
-        high = min(low * step, most)
-        if mends(high):
-            return narrowed(mends, low, high, precision)[1]
-        low, step = high, min(step**2, _LARGEST_STEP)
+    while low < largest:
+        factor = min(low * step, largest)
+        if helps(factor):
+            return narrowed(helps, low, factor, precision)[1]
+        low, step = factor, min(step**2, _LARGEST_STEP)
     return None
 
 

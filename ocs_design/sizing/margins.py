@@ -80,11 +80,11 @@ class SampledMotion:
 
     def between(self) -> "SampledMotion":
         """Samples with the midpoint of each interval inserted, shape (2 n - 1, ...)."""
-        found = {}
+        fields = {}
         for name, values in vars(self).items():
-            found[name] = np.repeat(values, 2, axis=0)[:-1]
-            found[name][1::2] = 0.5 * (values[:-1] + values[1:])
-        return SampledMotion(**found)
+            fields[name] = np.repeat(values, 2, axis=0)[:-1]
+            fields[name][1::2] = 0.5 * (values[:-1] + values[1:])
+        return SampledMotion(**fields)
 
 
 def integral(values: FloatArray, time: FloatArray) -> float:
@@ -131,25 +131,25 @@ class Consumption:
 
 def consumption(motion: SampledMotion, wheel: DrivenWheel) -> Consumption:
     """Currents, heat, powers and energies of a motion with equal wheels."""
-    fine = motion.between()
-    current = winding_current(fine, wheel)
-    squared_time = [integral(values**2, fine.time) for values in current.T]
-    drawn, fed_back = bus_power(fine, wheel), -bus_power(fine, wheel, friction=False)
+    refined = motion.between()
+    current = winding_current(refined, wheel)
+    squared_time = [integral(values**2, refined.time) for values in current.T]
+    drawn, fed_back = bus_power(refined, wheel), -bus_power(refined, wheel, friction=False)
     # Midpoints of jumps do not exist in time.
-    lasts = np.ones(len(fine.time), dtype=bool)
-    lasts[1::2] = np.diff(motion.time) > 0.0
-    loss = shaft_power(fine, wheel) - fine.wheel_torque * fine.wheel_speed
+    has_duration = np.ones(len(refined.time), dtype=bool)
+    has_duration[1::2] = np.diff(motion.time) > 0.0
+    loss = shaft_power(refined, wheel) - refined.wheel_torque * refined.wheel_speed
     return Consumption(
         duration=float(motion.time[-1] - motion.time[0]),
         peak_current=float(np.abs(current).max()),
         current_squared_time=max(squared_time),
         heat=wheel.resistance * max(squared_time),
         heat_all=wheel.resistance * sum(squared_time),
-        gear_loss=integral(loss.sum(axis=1), fine.time),
-        drawn=integral(np.maximum(drawn, 0.0), fine.time),
-        fed_back=integral(np.maximum(fed_back, 0.0), fine.time),
-        power_drawn=float(max(drawn[lasts].max(), 0.0)),
-        power_fed_back=float(max(fed_back[lasts].max(), 0.0)),
+        gear_loss=integral(loss.sum(axis=1), refined.time),
+        drawn=integral(np.maximum(drawn, 0.0), refined.time),
+        fed_back=integral(np.maximum(fed_back, 0.0), refined.time),
+        power_drawn=float(max(drawn[has_duration].max(), 0.0)),
+        power_fed_back=float(max(fed_back[has_duration].max(), 0.0)),
     )
 
 
@@ -187,11 +187,14 @@ def bus_power(motion: SampledMotion, wheel: DrivenWheel, *, friction: bool = Tru
     For direct drive that is V i with V = R i + k_t w. Friction is k_t I_0 at the motor's speed.
     """
     copper = wheel.resistance * winding_current(motion, wheel, friction=friction) ** 2
-    each = copper + shaft_power(motion, wheel)
+    power_per_motor = copper + shaft_power(motion, wheel)
     if friction:
-        turning = wheel.gear.ratio * np.abs(motion.wheel_speed)
-        each = each + wheel.torque_constant * (wheel.drive.no_load_current or 0.0) * turning
-    power: FloatArray = np.sum(each, axis=1)
+        motor_speed = wheel.gear.ratio * np.abs(motion.wheel_speed)
+        power_per_motor = (
+            power_per_motor
+            + wheel.torque_constant * (wheel.drive.no_load_current or 0.0) * motor_speed
+        )
+    power: FloatArray = np.sum(power_per_motor, axis=1)
     return power
 
 
@@ -204,15 +207,15 @@ def worst(by_scenario: Iterable[tuple[str, Iterable[Margin]]]) -> tuple[Margin, 
         by_scenario: names of maneuvers, each with the margins of a motion; a name may occur twice,
             for the planned and for the flown motion.
     """
-    found: dict[str, Margin] = {}
+    worst_by_name: dict[str, Margin] = {}
     for name, margins in by_scenario:
         for margin in margins:
-            kept = found.get(margin.name)
-            if kept is None or margin.sort_key > kept.sort_key:
+            known = worst_by_name.get(margin.name)
+            if known is None or margin.sort_key > known.sort_key:
                 # A rim's stress is that at the drive's highest speed in every scenario.
                 scenario = "" if margin.name == HOOP_STRESS else name
-                found[margin.name] = replace(margin, scenario=scenario)
-    return tuple(found.values())
+                worst_by_name[margin.name] = replace(margin, scenario=scenario)
+    return tuple(worst_by_name.values())
 
 
 def bearing_moment(motion: SampledMotion, axes: FloatArray, wheel: DrivenWheel) -> FloatArray:
@@ -233,10 +236,10 @@ def bearing_moment(motion: SampledMotion, axes: FloatArray, wheel: DrivenWheel) 
     for wheel_speed, axis in zip(motion.wheel_speed.T, axes.T, strict=True):
         along = motion.rate @ axis
         across = motion.acceleration - np.outer(motion.acceleration @ axis, axis)
-        own = wheel.wheel.transverse_inertia
-        excess = (wheel.wheel.axial_inertia + wheel.rotor_inertia - own) * along
+        transverse = wheel.wheel.transverse_inertia
+        excess = (wheel.wheel.axial_inertia + wheel.rotor_inertia - transverse) * along
         momentum = excess + wheel.turned_inertia * wheel_speed
-        moment = own * across + momentum[:, None] * np.cross(motion.rate, axis)
+        moment = transverse * across + momentum[:, None] * np.cross(motion.rate, axis)
         moments.append(np.linalg.norm(moment, axis=1))
     return np.column_stack(moments)
 
@@ -260,18 +263,21 @@ def margins(motion: SampledMotion, axes: FloatArray, wheel: DrivenWheel) -> tupl
         axes: unit spin axes in B in this motion, as columns, shape (3, m).
         wheel: each of them.
     """
-    found = [*_drive_margins(motion, wheel), *_electric_margins(consumption(motion, wheel), wheel)]
+    margins_found = [
+        *_drive_margins(motion, wheel),
+        *_electric_margins(consumption(motion, wheel), wheel),
+    ]
     stress = wheel.overspeed_stress
     if stress is not None:
         strength = wheel.material.yield_strength
         note = f"at {OVERSPEED:g} x the highest speed that the drive reaches"
-        found.append(Margin(HOOP_STRESS, stress, strength, "Pa", note=note))
-    moved = wheel.turned_inertia + wheel.drive.armature
-    energy = float((0.5 * moved * np.sum(motion.wheel_speed**2, axis=1)).max())
+        margins_found.append(Margin(HOOP_STRESS, stress, strength, "Pa", note=note))
+    driven_inertia = wheel.turned_inertia + wheel.drive.armature
+    energy = float((0.5 * driven_inertia * np.sum(motion.wheel_speed**2, axis=1)).max())
     # No data sheet in the catalogue gives the load rating or the spacing of the bearings.
     moment = float(bearing_moment(motion, axes, wheel).max())
     return (
-        *found,
+        *margins_found,
         Margin("stored energy", energy, None, "J", note="all wheels with their rotors"),
         Margin(BEARING_MOMENT, moment, None, "N m", note="gyroscopic, and accelerating the trunk"),
     )
@@ -281,31 +287,33 @@ def _drive_margins(motion: SampledMotion, wheel: DrivenWheel) -> Iterator[Margin
     """Current limit, voltage line and speeds (docs/theory.md, What a motor can do)."""
     line, gear = wheel.line, wheel.gear
     speed = _peak(motion.wheel_speed)
-    reached = ""
+    speed_note = ""
     if line.no_load_speed < line.speed_max < np.inf:
-        reached = (
+        speed_note = (
             f"the most allowed; at {wheel.supply.voltage:g} V the drive reaches "
             f"{rpm(float(line.no_load_speed))}, see voltage line"
         )
-    yield Margin(WHEEL_SPEED, speed, finite_or_none(line.speed_max), "rad/s", note=reached)
-    of_motor = speed_limit(wheel.motor) or np.inf
-    capacity, note = min(of_motor, gear.motor_speed_max), ""
-    if gear.motor_speed_max < of_motor:
+    yield Margin(WHEEL_SPEED, speed, finite_or_none(line.speed_max), "rad/s", note=speed_note)
+    motor_limit = speed_limit(wheel.motor) or np.inf
+    capacity, note = min(motor_limit, gear.motor_speed_max), ""
+    if gear.motor_speed_max < motor_limit:
         note = "the gear's limit"
     elif wheel.motor.speed_max is None:
         note = "no limit stated: no-load speed at rated voltage"
     yield Margin(MOTOR_SPEED, gear.ratio * speed, finite_or_none(capacity), "rad/s", note=note)
     # A motor in use also works against its own friction.
-    rubbed = wheel.drive.friction
-    asked = _peak(motion.wheel_torque)
+    friction_torque = wheel.drive.friction
+    torque = _peak(motion.wheel_torque)
     yield Margin(
         MOTOR_TORQUE,
-        asked + rubbed if asked else 0.0,
-        finite_or_none(line.torque_limit + rubbed),
+        torque + friction_torque if torque else 0.0,
+        finite_or_none(line.torque_limit + friction_torque),
         "N m",
-        note=f"at the wheel, {rubbed:.3g} N m of friction included" if rubbed else "at the wheel",
+        note=f"at the wheel, {friction_torque:.3g} N m of friction included"
+        if friction_torque
+        else "at the wheel",
     )
-    friction = np.sign(motion.wheel_speed) * rubbed
+    friction = np.sign(motion.wheel_speed) * friction_torque
     driven = (motion.wheel_torque + friction) / line.stall_torque
     yield Margin(
         "voltage line",
@@ -317,7 +325,7 @@ def _drive_margins(motion: SampledMotion, wheel: DrivenWheel) -> Iterator[Margin
     )
 
 
-def _electric_margins(taken: Consumption, wheel: DrivenWheel) -> Iterator[Margin]:
+def _electric_margins(used: Consumption, wheel: DrivenWheel) -> Iterator[Margin]:
     """Bus current and power against the supply's limits, energies, and heat of the busiest motor.
 
     Continuous ratings are for hours and a maneuver lasts a second: exceeding one is not a fault,
@@ -326,35 +334,35 @@ def _electric_margins(taken: Consumption, wheel: DrivenWheel) -> Iterator[Margin
     supply = wheel.supply.explicit
     current_max = finite_or_none(supply.power / supply.voltage)
     power_max = finite_or_none(supply.power)
-    for name, power in (("", taken.power_drawn), (FED_BACK, taken.power_fed_back)):
+    for name, power in (("", used.power_drawn), (FED_BACK, used.power_fed_back)):
         note = "" if name else ALL_MOTORS
         yield Margin(BUS_CURRENT + name, power / supply.voltage, current_max, "A", note=note)
         yield Margin(BUS_POWER + name, power, power_max, "W")
     yield Margin(
         "energy from the bus",
-        taken.drawn,
+        used.drawn,
         None,
         "J",
-        note=f"of which {taken.heat_all:.3g} J heat the windings",
+        note=f"of which {used.heat_all:.3g} J heat the windings",
     )
     yield Margin(
         "energy fed back",
-        taken.fed_back,
+        used.fed_back,
         None,
         "J",
         note="braking, if the inverter lets it through",
     )
     note = "of one motor at its cold resistance; the winding's heat capacity is not known"
-    yield Margin("winding heat", taken.heat, None, "J", note=note)
-    mean = float(np.sqrt(taken.current_squared_time / taken.duration))
+    yield Margin("winding heat", used.heat, None, "J", note=note)
+    mean = float(np.sqrt(used.current_squared_time / used.duration))
     rating = wheel.motor.continuous_torque
     if rating is None:
         yield Margin(RMS_CURRENT, mean, None, "A", note="no continuous rating is stated")
         return
     continuous = rating / wheel.torque_constant
-    pause = taken.current_squared_time / continuous**2 - taken.duration
+    pause = used.current_squared_time / continuous**2 - used.duration
     note = f"a pause of {pause:.2g} s after each maneuver cools it"
-    note = f"for {taken.duration:.2g} s; {note}" if pause > 0.0 else ""
+    note = f"for {used.duration:.2g} s; {note}" if pause > 0.0 else ""
     yield Margin(RMS_CURRENT, mean, continuous, "A", note=note)
 
 

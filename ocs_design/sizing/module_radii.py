@@ -30,7 +30,7 @@ _NEWTON_STEPS = 12
 # Relative step below which iteration stops: the next would be rounding.
 _LAST_STEP = 1e-9
 # Relative difference of radii that count as equal, so that limits meeting in a point admit a rim.
-_SAME = 1e-13
+_EQUAL = 1e-13
 # Iterations for the cuts; each gains a digit, as cuts are at most an eighth of the section.
 _CUT_ROUNDS = 7
 
@@ -42,7 +42,7 @@ class _Crossing(NamedTuple):
     outer: FloatArray
 
 
-class _Asked(NamedTuple):
+class _RequiredRim(NamedTuple):
     """A required plain rim, before chamfers and holes are cut, and its limits.
 
     Each method returns the rim at which two limits meet.
@@ -162,10 +162,10 @@ def smallest_radius(inertia: FloatArray, limits: RimLimits) -> FloatArray:
     """Radius below which a wheel of a spin inertia is too tall, too thick or too heavy [m]."""
     wall, bore = np.asarray(limits.wall_min), np.asarray(limits.inner_radius_min)
     by_wall = np.maximum(bore + wall, wall / (1.0 - BORE_SHARE))
-    crossings = [_Asked.tall_and_narrow, _Asked.tall_and_closed]
+    crossings = [_RequiredRim.tall_and_narrow, _RequiredRim.tall_and_closed]
     if not np.all(np.isinf(limits.mass_max)):
-        crossings += [_Asked.tall_and_heavy, _Asked.thin_and_heavy]
-        crossings += [_Asked.wide_and_heavy] if _held_bore(limits) else []
+        crossings += [_RequiredRim.tall_and_heavy, _RequiredRim.thin_and_heavy]
+        crossings += [_RequiredRim.wide_and_heavy] if _has_bore_limit(limits) else []
     radius: FloatArray = np.maximum(by_wall, np.asarray(limits.outer_radius_min))
     for crossing in crossings:
         radius = np.maximum(radius, _crossing_radius(crossing, inertia, limits))
@@ -178,11 +178,11 @@ def largest_radius(inertia: FloatArray, limits: RimLimits) -> FloatArray:
     by_bore = (stretch - inner * np.asarray(limits.inner_radius_min) ** 2) / outer
     by_share = stretch / (outer + inner * BORE_SHARE**2)
     square = np.minimum(by_bore, by_share)
-    crossings = [_Asked.stretched_and_flat, _Asked.thin_and_flat]
+    crossings = [_RequiredRim.stretched_and_flat, _RequiredRim.thin_and_flat]
     if not np.all(np.isinf(limits.mass_max)):
-        crossings.append(_Asked.stretched_and_heavy)
-    if _held_bore(limits):
-        crossings.append(_Asked.wide_and_flat)
+        crossings.append(_RequiredRim.stretched_and_heavy)
+    if _has_bore_limit(limits):
+        crossings.append(_RequiredRim.wide_and_flat)
     radius: FloatArray = np.minimum(
         np.asarray(limits.outer_radius_max), np.sqrt(np.maximum(square, 0.0))
     )
@@ -192,23 +192,23 @@ def largest_radius(inertia: FloatArray, limits: RimLimits) -> FloatArray:
 
 
 def _crossing_radius(
-    crossing: Callable[[_Asked], _Crossing], inertia: FloatArray, limits: RimLimits
+    crossing: Callable[[_RequiredRim], _Crossing], inertia: FloatArray, limits: RimLimits
 ) -> FloatArray:
     """R at which two limits meet for a rim with cuts [m]."""
     cuts, per_volume = limits.cuts, np.pi * limits.density
     full, mass = 2.0 * inertia / per_volume, np.asarray(limits.mass_max) / per_volume
-    found = crossing(_Asked(full, mass, limits))
+    found = crossing(_RequiredRim(full, mass, limits))
     for _ in range(_CUT_ROUNDS if cuts.any else 0):
         # Where the limits do not meet, there are no cuts.
         both = cuts.spread(*found), cuts.area(*found)
         spread, area = (np.where(np.isfinite(cut), cut, 0.0) for cut in both)
-        last, found = found, crossing(_Asked(full + spread, mass + area, limits))
-        if not np.any(np.abs(found.outer - last.outer) > _SAME * found.outer):
+        last, found = found, crossing(_RequiredRim(full + spread, mass + area, limits))
+        if not np.any(np.abs(found.outer - last.outer) > _EQUAL * found.outer):
             break
     return found.outer
 
 
-def _held_bore(limits: RimLimits) -> bool:
+def _has_bore_limit(limits: RimLimits) -> bool:
     """Whether bores have an upper limit; such rims have no webs."""
     return not np.all(np.isinf(limits.inner_radius_max))
 

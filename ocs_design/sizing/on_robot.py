@@ -36,27 +36,29 @@ from ocs_design.sizing.selection.select import (
 
 _FOOTINGS_MAX, _RINGS_MAX, _RESERVES_MAX = 6, 16, 3
 
-_SETTLED = 1e-3
+_CONVERGED = 1e-3
 """Change of the plate's mass, relative to the device's, that counts as converged; the device's mass
 then changes by a hundredth of it."""
 
-_NEVER_SETTLES = 0.05
+_DIVERGED = 0.05
 """Change of that mass above which a device counts as mounted differently each time it is sized."""
 
 _TOO_THICK = 0.2e-3
 """Excess thickness of feet that is tolerated [m]: 0.5 g each."""
 
 
-class NeverHeld(Infeasible):
+class NoMountHolds(Infeasible):
     """The mount would need a larger device, which no mount can hold.
 
     Its arguments are the device and the mass of the heaviest mount that would hold it [kg].
     """
 
     def __init__(self, best: Candidate, mass: float) -> None:
-        held, device = (format_quantity(each, "kg", digits=3) for each in (mass, best.modules_mass))
+        mount, device = (
+            format_quantity(value, "kg", digits=3) for value in (mass, best.modules_mass)
+        )
         super().__init__(
-            f"A device of {device} needs a mount of {held} on the trunk, but turning that mount "
+            f"A device of {device} needs a mount of {mount} on the trunk, but turning that mount "
             "too takes a larger device, which no mount can hold.",
             binding=[Constraint.MOUNT],
             largest_spin_inertia=best.spin_inertia,
@@ -71,13 +73,14 @@ class Mounted:
     Attributes:
         problem: on this footing, which the selection solves. selection: its solution.
         reserve: that it keeps.
-        plain: the problem without a reserve. nominal: the device that the reserve was computed for.
+        unreserved: the problem without a reserve. nominal: the device that the reserve was computed
+            for.
     """
 
     problem: SelectionProblem
     selection: Selection
     reserve: Reserve
-    plain: SelectionProblem
+    unreserved: SelectionProblem
     nominal: Candidate
 
 
@@ -107,8 +110,8 @@ class OnRobot:
     def with_plate(self, candidate: Candidate, problem: SelectionProblem) -> Candidate:
         """A selected device with its plate or pedestals, where it needs any."""
         device = assemble_selected(candidate)
-        found = self.footing(device, problem) or Footing(problem.place, None)
-        return replace(candidate, plate=found.plate, pedestals=found.pedestals)
+        footing = self.footing(device, problem) or Footing(problem.place, None)
+        return replace(candidate, plate=footing.plate, pedestals=footing.pedestals)
 
     def with_plates(
         self, selection: Selection, problem: SelectionProblem, *, ranked: bool = True
@@ -129,46 +132,49 @@ class OnRobot:
                 plated.append(self.with_plate(entry, problem))
         first, lightest = plated[0], devices_by_mass(plated)[0]
         if lightest is not first and self.criterion is not None and problem.incidence is None:
-            _, own = at_own_incidence(problem, lightest, self.criterion)
-            lightest = first if own is None else self.with_plate(own, problem)
+            _, at_own = at_own_incidence(problem, lightest, self.criterion)
+            lightest = first if at_own is None else self.with_plate(at_own, problem)
         others = [entry for entry in plated if not same_parts(entry, lightest)]
         return replace(selection, ranking=(lightest, *devices_by_mass(others)))
 
     def _selected(self, problem: SelectionProblem, start: Candidate | None) -> Selection:
         """The selection for a problem; where its parts are known, only the device near `start`."""
-        alone = self.near and start and lightest_near(problem, start, self.criterion)
-        if alone is None:
+        near_start = self.near and start and lightest_near(problem, start, self.criterion)
+        if near_start is None:
             return select_by(problem, self.criterion, winner=start)
-        return Selection((alone,), candidates=1, reasons=tuple)
+        return Selection((near_start,), candidates=1, reasons=tuple)
 
-    def _settled(
+    def _converged_footing(
         self, problem: SelectionProblem, best: Candidate
     ) -> tuple[SelectionProblem, Candidate]:
         """The problem for this device's footing, and the device for that problem, converged."""
-        at, criterion = problem, self.criterion
+        on_footing, criterion = problem, self.criterion
         for _ in range(_FOOTINGS_MAX):
-            own = self._own_footing(problem, best)
-            masses = own.robot.mass, at.robot.mass
-            change, heavier = abs(masses[0] - masses[1]), max(masses) - self.robot.mass
-            same = own.place == at.place and own.foot_plate == at.foot_plate
-            if same and change <= _SETTLED * best.mass:
+            on_own_footing = self._own_footing(problem, best)
+            masses = on_own_footing.robot.mass, on_footing.robot.mass
+            change, mount_mass = abs(masses[0] - masses[1]), max(masses) - self.robot.mass
+            same = (
+                on_own_footing.place == on_footing.place
+                and on_own_footing.foot_plate == on_footing.foot_plate
+            )
+            if same and change <= _CONVERGED * best.mass:
                 break
-            again = device_at(own, best, best.incidence)
-            if again is not None and criterion is not None and own.incidence is None:
-                _, again = at_own_incidence(own, again, criterion)
+            device = device_at(on_own_footing, best, best.incidence)
+            if device is not None and criterion is not None and on_own_footing.incidence is None:
+                _, device = at_own_incidence(on_own_footing, device, criterion)
             # Earlier estimates had no mast; with it another drive may be needed, or none suffices.
-            again = again or lightest_by(own, criterion)
+            device = device or lightest_by(on_own_footing, criterion)
             try:
-                best = again or select_by(own, criterion).best
+                best = device or select_by(on_own_footing, criterion).best
             except Infeasible as error:
-                held = format_quantity(own.robot.mass - self.robot.mass, "kg", digits=4)
-                error.message = f"With a mount of {held} on the trunk: {error.message}"
+                mount = format_quantity(on_own_footing.robot.mass - self.robot.mass, "kg", digits=4)
+                error.message = f"With a mount of {mount} on the trunk: {error.message}"
                 raise
-            at = own
+            on_footing = on_own_footing
         else:
-            if change > _NEVER_SETTLES * best.mass:
-                raise NeverHeld(best, heavier)
-        return at, best
+            if change > _DIVERGED * best.mass:
+                raise NoMountHolds(best, mount_mass)
+        return on_footing, best
 
     def mounted(
         self, problem: SelectionProblem, errors: SampledErrors, reserve: Reserve, *, ranked: bool
@@ -193,13 +199,18 @@ class OnRobot:
         first = self.near and lightest_near(problem, self.near, criterion)
         first = first or lightest_by(problem, criterion)
         if first is not None:
-            problem, first = self._settled(problem, first)
+            problem, first = self._converged_footing(problem, first)
         nominal = select_by(problem, criterion).best if first is None else first
         reserve = reserve.computed_for(errors, problem, nominal)
-        free, plain = problem.incidence is None and criterion is None, problem
+        incidence_is_free, unreserved = problem.incidence is None and criterion is None, problem
         problem, widest = (
-            replace(each, requirement=reserve.applied_to(each.requirement, incidence_is_free=free))
-            for each in (problem, widest)
+            replace(
+                variant,
+                requirement=reserve.applied_to(
+                    variant.requirement, incidence_is_free=incidence_is_free
+                ),
+            )
+            for variant in (problem, widest)
         )
         first = device_at(problem, nominal, nominal.incidence)
         try:
@@ -209,33 +220,39 @@ class OnRobot:
             selection = select_by(problem, criterion)
         # The first reserve was computed for a device without one, at that device's incidence:
         # where this device needs a larger one, it keeps that.
-        for _ in range(_RESERVES_MAX if free else 0):
-            needs = errors.needs(plain, selection.best, reserve)
+        for _ in range(_RESERVES_MAX if incidence_is_free else 0):
+            needs = errors.needs(unreserved, selection.best, reserve)
             if needs.reliability >= reserve.reliability:
                 break
-            more = reserve.covering(needs)
-            surer = replace(
-                problem, requirement=more.applied_to(plain.requirement, incidence_is_free=True)
+            larger_reserve = reserve.covering(needs)
+            with_more = replace(
+                problem,
+                requirement=larger_reserve.applied_to(
+                    unreserved.requirement, incidence_is_free=True
+                ),
             )
             try:
-                selection = self._selected(surer, selection.best)
+                selection = self._selected(with_more, selection.best)
             except Infeasible:
                 break
-            problem, reserve = surer, more
+            problem, reserve = with_more, larger_reserve
         selection = self.with_plates(selection, problem, ranked=ranked)
         for _ in range(_FOOTINGS_MAX):
             best = selection.best
-            own, device = self._settled(problem, best)
-            if own is problem:
+            on_own_footing, device = self._converged_footing(problem, best)
+            if on_own_footing is problem:
                 break
-            device, problem = lightest_near(own, device, criterion) or device, own
+            device = lightest_near(on_own_footing, device, criterion) or device
+            problem = on_own_footing
             others = [entry for entry in selection.ranking[1:] if not same_parts(entry, best)]
-            selection = replace(selection, ranking=(self.with_plate(device, own), *others))
-        return Mounted(problem, selection, reserve, plain, nominal)
+            selection = replace(
+                selection, ranking=(self.with_plate(device, on_own_footing), *others)
+            )
+        return Mounted(problem, selection, reserve, unreserved, nominal)
 
     def without_reserve(self, found: Mounted) -> Candidate:
         """The lightest device without a reserve."""
-        return lightest_near(found.plain, found.nominal, self.criterion) or found.nominal
+        return lightest_near(found.unreserved, found.nominal, self.criterion) or found.nominal
 
     def _own_footing(self, problem: SelectionProblem, best: Candidate) -> SelectionProblem:
         """The problem for the plate, the place and the feet of this device."""
@@ -245,10 +262,10 @@ class OnRobot:
         floor = (
             0.0 if cage is None else floor_at_shock(cage, best.motor.mass or 0.0, best.wheel.mass)
         )
-        least = plate_thickness(foot_of(device), module, floor)
+        least_thickness = plate_thickness(foot_of(device), module, floor)
         # Thicker feet are a little heavier, so a little excess is tolerated.
-        if not least <= feet <= least + _TOO_THICK:
-            feet = least
+        if not least_thickness <= feet <= least_thickness + _TOO_THICK:
+            feet = least_thickness
         footing = self.footing(device, problem) or Footing(problem.place, None)
         carried = footing.added_to(self.robot.mass_properties)
         place = problem.place if problem.place.specified else footing.place
@@ -272,46 +289,49 @@ class OnRobot:
 
         def ringed(best: Candidate, least: float) -> SelectionProblem:
             burst = burst_of(assemble_selected(best))
-            own = self._own_footing(problem, best)
-            return replace(own, guard_wall=max(least, burst.built_wall))
+            with_own_rings = self._own_footing(problem, best)
+            return replace(with_own_rings, guard_wall=max(least, burst.built_wall))
 
-        at, tried = ringed(best, 0.0), set[tuple[str, str]]()
+        ringed_problem, tried = ringed(best, 0.0), set[tuple[str, str]]()
         try:
-            selection = select_by(at, self.criterion)
+            selection = select_by(ringed_problem, self.criterion)
         except Infeasible as error:
-            raise _unheld(at.guard_wall, error) from error
-        selection = self.with_plates(selection, at)
+            raise _too_heavy_with_rings(ringed_problem.guard_wall, error) from error
+        selection = self.with_plates(selection, ringed_problem)
         for _ in range(_RINGS_MAX):
             best = selection.best
             drive = best.motor.name, best.gear.name
             # The rings of a drive only grow, so the last ones contain its wheels.
-            own = ringed(best, best.guard_wall if drive in tried else 0.0)
+            with_own_rings = ringed(best, best.guard_wall if drive in tried else 0.0)
             tried.add(drive)
-            change = abs(own.robot.mass - at.robot.mass)
-            walls = own.guard_wall == best.guard_wall and own.foot_plate == best.foot_plate
-            same = own.place == at.place and walls
-            if same and change <= _SETTLED * best.mass:
+            change = abs(with_own_rings.robot.mass - ringed_problem.robot.mass)
+            walls = (
+                with_own_rings.guard_wall == best.guard_wall
+                and with_own_rings.foot_plate == best.foot_plate
+            )
+            converged = with_own_rings.place == ringed_problem.place and walls
+            if converged and change <= _CONVERGED * best.mass:
                 break
             others = [
                 entry
                 for entry in selection.ranking
                 if (entry.motor, entry.gear) != (best.motor, best.gear)
             ]
-            alone = replace(own, motors=(best.motor,), gears=(best.gear,))
+            of_this_drive = replace(with_own_rings, motors=(best.motor,), gears=(best.gear,))
             try:
-                again = select_by(alone, self.criterion)
+                reselected = select_by(of_this_drive, self.criterion)
             except Infeasible as error:
                 if not others:
-                    raise _unheld(own.guard_wall, error) from error
+                    raise _too_heavy_with_rings(with_own_rings.guard_wall, error) from error
                 selection = replace(selection, ranking=tuple(others))
                 continue
-            again, at = self.with_plates(again, alone), own
-            ranking = devices_by_mass((*again.ranking, *others))
+            reselected, ringed_problem = self.with_plates(reselected, of_this_drive), with_own_rings
+            ranking = devices_by_mass((*reselected.ranking, *others))
             selection = replace(selection, ranking=tuple(ranking))
-        return at, selection
+        return ringed_problem, selection
 
 
-def _unheld(wall: float, error: Infeasible) -> Infeasible:
+def _too_heavy_with_rings(wall: float, error: Infeasible) -> Infeasible:
     """The error where every device is too heavy with rings that contain its wheels."""
     return Infeasible(
         f"With guard rings of {1e3 * wall:.1f} mm steel no motor meets all requirements: {error}",

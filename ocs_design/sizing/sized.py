@@ -25,7 +25,7 @@ from ocs_design.sizing.selection.problem import Candidate, Selection, SelectionP
 
 METHOD = "branch and bound over the catalogue, each module in closed form"
 
-_STEP = 1e-5
+_DIFFERENCE_STEP = 1e-5
 """Relative step of the central differences."""
 
 
@@ -108,18 +108,18 @@ def _spin_demands(problem: SelectionProblem, chosen: Candidate) -> Iterator[Spin
     maneuvers = {maneuver.name: maneuver for maneuver in requirement.maneuvers}
     height = requirement.standing_height
     for demand in chosen.demands:
-        maneuver, at = maneuvers.get(demand.source), demand.incidence
-        inertia = inertia_at(problem, chosen, at)
+        maneuver, incidence = maneuvers.get(demand.source), demand.incidence
+        inertia = inertia_at(problem, chosen, incidence)
         if maneuver is None:
-            about = [demand.source.endswith(name) for name in AXES]
-            momentum = rate_momenta(inertia, requirement.rate_change or 0.0)[about][0]
+            matches = [demand.source.endswith(name) for name in AXES]
+            momentum = rate_momenta(inertia, requirement.rate_change or 0.0)[matches][0]
             torque = 0.0
         else:
-            axes = chosen.layout.axes(at)[:2]
-            turned = inertia.within_reach(np.abs(axes).max(axis=1), maneuver.stray)
-            momentum = maneuver.momentum(turned, height)
-            torque = float(held(axes, maneuver.least_torque(turned, height)).most)
-        yield SpinDemand(demand.source, at, momentum, demand.spin_inertia, torque)
+            axes = chosen.layout.axes(incidence)[:2]
+            reached_inertia = inertia.within_reach(np.abs(axes).max(axis=1), maneuver.stray)
+            momentum = maneuver.momentum(reached_inertia, height)
+            torque = float(held(axes, maneuver.least_torque(reached_inertia, height)).most)
+        yield SpinDemand(demand.source, incidence, momentum, demand.spin_inertia, torque)
 
 
 def _shadow_prices(problem: SelectionProblem, chosen: Candidate) -> dict[str, float]:
@@ -132,12 +132,12 @@ def _shadow_prices(problem: SelectionProblem, chosen: Candidate) -> dict[str, fl
     limits = chosen.limits
     shell, prices = chosen.shell, {}
     for name in chosen.binding:
-        limit = next((each for each in RIM_LIMITS if each.name == name), None)
+        limit = next((limit for limit in RIM_LIMITS if limit.name == name), None)
         if limit is None:
             continue
         field = "stretch_max" if limit is STRESS else limit.field
         value = float(np.asarray(getattr(limits, field)))
-        steps = np.array([-_STEP, 0.0, _STEP]) * value
+        steps = np.array([-_DIFFERENCE_STEP, 0.0, _DIFFERENCE_STEP]) * value
         changed = [replace(limits, **{field: value + step}) for step in steps]
         masses = np.array([float(lightest_module(rim_inertia, c, shell).mass) for c in changed])
         known = np.isfinite(masses)

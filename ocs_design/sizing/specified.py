@@ -57,7 +57,7 @@ def selection_problem(task: Task) -> SelectionProblem | None:
         requirement=specified_requirement(task),
         envelope=resolved.envelope,
         place=footing.place,
-        motors=_held(specification, resolved, choice),
+        motors=_motors_that_hold(specification, resolved, choice),
         gears=choice.gears,
         materials=choice.materials,
         supply=choice.supply,
@@ -78,8 +78,10 @@ def specified_requirement(task: Task) -> Requirement:
     """Requirement of a task; turns are direct where the layout spans all three axes."""
     specified, layout = task.specification.ocs, specified_layout(task.specification)
     angle = layout.angle if specified.alpha is None else specified.alpha
-    direct = angle is not None and bool(np.linalg.matrix_rank(layout.axes(angle), _SPANS) == 3)
-    return task.resolved.requirement.changed(lambda each: each.with_wheels(direct=direct))
+    direct = angle is not None and bool(
+        np.linalg.matrix_rank(layout.axes(angle), _SINGULAR_VALUE_MIN) == 3
+    )
+    return task.resolved.requirement.changed(lambda maneuver: maneuver.with_wheels(direct=direct))
 
 
 def on_bells(problem: SelectionProblem, choice: MotorChoice) -> SelectionProblem:
@@ -88,19 +90,19 @@ def on_bells(problem: SelectionProblem, choice: MotorChoice) -> SelectionProblem
     Raises:
         UsageError: none has.
     """
-    belled = tuple(motor for motor in choice.motors if bell_of(motor) is not None)
-    if not belled:
-        some = ", ".join(motor.name for motor in choice.motors[:_NAMED])
-        more = " ..." if len(choice.motors) > _NAMED else ""
+    with_bells = tuple(motor for motor in choice.motors if bell_of(motor) is not None)
+    if not with_bells:
+        names = ", ".join(motor.name for motor in choice.motors[:_MOTORS_NAMED])
+        more = " ..." if len(choice.motors) > _MOTORS_NAMED else ""
         raise UsageError(
-            f"no ring fits around the bell of {some}{more}: it "
+            f"no ring fits around the bell of {names}{more}: it "
             "needs a back-mounted outrunner of known diameter and length whose bell is longer than "
             "its protruding shaft",
             hint="Name another motor with --motor, or leave out --wheel ring.",
         )
     return replace(
         problem,
-        motors=belled,
+        motors=with_bells,
         gears=(choice.direct,),
         web=False,
         on_bell=True,
@@ -117,7 +119,7 @@ def other_construction(task: Task, problem: SelectionProblem) -> SelectionProble
     if problem.on_bell:
         return replace(
             problem,
-            motors=_held(task.specification, task.resolved, choice),
+            motors=_motors_that_hold(task.specification, task.resolved, choice),
             gears=choice.gears,
             web=True,
             on_bell=False,
@@ -129,14 +131,14 @@ def other_construction(task: Task, problem: SelectionProblem) -> SelectionProble
         return None
 
 
-_NAMED = 3
+_MOTORS_NAMED = 3
 """Number of motors that a message names."""
 
-_SPANS = 1e-3
+_SINGULAR_VALUE_MIN = 1e-3
 """Least singular value of axes that span roll, pitch and yaw."""
 
 
-def _held(
+def _motors_that_hold(
     specification: Specification, resolved: Resolved, choice: MotorChoice
 ) -> tuple[Motor, ...]:
     """Motors to choose from; unless named, only those that can be mounted and can hold a wheel.
@@ -151,31 +153,31 @@ def _held(
 
         def holds_wheel(motor: Motor) -> bool:
             """Whether the joint of hub and motor carries its peak torque with margin."""
-            carried = _carried(motor, resolved.envelope)
-            return carried is not None and carried >= SERVICE * (motor.peak_torque or 0.0)
+            torque = _joint_torque(motor, resolved.envelope)
+            return torque is not None and torque >= SERVICE * (motor.peak_torque or 0.0)
 
-        held = (each for each in motors if is_held(each, None) and holds_wheel(each))
-        motors = tuple(held) or motors
-    stop = min((each.stop for each in resolved.requirement.maneuvers), default=inf)
-    if not isfinite(stop):
+        suitable = (motor for motor in motors if is_held(motor, None) and holds_wheel(motor))
+        motors = tuple(suitable) or motors
+    brake_time = min((maneuver.stop for maneuver in resolved.requirement.maneuvers), default=inf)
+    if not isfinite(brake_time):
         return motors
-    slowed = []
+    limited = []
     for motor in motors:
-        carried, speed, rotor = (
-            _carried(motor, resolved.envelope),
+        torque, speed, rotor = (
+            _joint_torque(motor, resolved.envelope),
             speed_limit(motor),
             motor.rotor_inertia,
         )
-        if carried is None or speed is None or not rotor:
-            slowed.append(motor)
+        if torque is None or speed is None or not rotor:
+            limited.append(motor)
         else:
             # The rotor's torque J W / t goes through the joint of hub and motor.
-            fastest = min(speed, carried * stop / (SERVICE * rotor))
-            slowed.append(replace(motor, speed_max=fastest))
-    return tuple(slowed)
+            fastest = min(speed, torque * brake_time / (SERVICE * rotor))
+            limited.append(replace(motor, speed_max=fastest))
+    return tuple(limited)
 
 
-def _carried(motor: Motor, room: Envelope) -> float | None:
+def _joint_torque(motor: Motor, room: Envelope) -> float | None:
     """Torque that the joint of hub and motor carries [N m]; None: no known joint does.
 
     A shaft is counted behind the highest rim that the selection may choose, in a hub with the
@@ -270,20 +272,20 @@ def require_survival(problem: SelectionProblem) -> None:
     if requirement.detection is None:
         return
     inertia = TiltInertia.uncoupled(np.diag(problem.robot.inertia)[:2])
-    asked: dict[str, tuple[float | None, FloatArray]] = {
+    momenta: dict[str, tuple[float | None, FloatArray]] = {
         maneuver.name: (maneuver.incidence, np.abs(slew.swept) + np.abs(slew.momentum))
         for maneuver in requirement.maneuvers
         for slew in [maneuver.slew(inertia, requirement.standing_height)]
     }
     if requirement.rate_change is not None:
-        asked["the rate change"] = None, np.ones(2)
-    for name, (own, momentum) in asked.items():
-        at = problem.incidence if own is None else own
-        axes = layout.axes(_SOME_ANGLE if at is None else at)[:2]
+        momenta["the rate change"] = None, np.ones(2)
+    for name, (incidence, momentum) in momenta.items():
+        angle = problem.incidence if incidence is None else incidence
+        axes = layout.axes(_ANY_ANGLE if angle is None else angle)[:2]
         # Both signs, as roll and pitch momentum together may lie along an axis by chance.
-        both = momentum * np.array([[1.0, 1.0], [1.0, -1.0]])
-        for wheel, left in zip(layout.names, without_each(axes), strict=True):
-            if not np.isfinite(held(left, both).most).all():
+        signed = momentum * np.array([[1.0, 1.0], [1.0, -1.0]])
+        for wheel, remaining in zip(layout.names, without_each(axes), strict=True):
+            if not np.isfinite(held(remaining, signed).most).all():
                 lost.setdefault(wheel, []).append(name)
     if lost:
         wheel, names = next(iter(lost.items()))
@@ -296,5 +298,5 @@ def require_survival(problem: SelectionProblem) -> None:
         )
 
 
-_SOME_ANGLE = np.pi / 4.0
+_ANY_ANGLE = np.pi / 4.0
 """Angle used where a layout's is still to be chosen [rad]; the rank of its axes is the same."""

@@ -39,20 +39,20 @@ from ocs_design.simulation.run import Run
 from ocs_design.simulation.simulate import POSE_RATE
 from ocs_design.simulation.trotting import require_trot
 from ocs_design.simulation.world_builder import Options, control_of
-from ocs_design.sizing.advice import unasked
-from ocs_design.sizing.design import design_device, survivors
+from ocs_design.sizing.advice import defaults_text
+from ocs_design.sizing.design import design_device, layouts_that_survive
 from ocs_design.sizing.fallbacks import (
     Attempt,
     advised,
     attempt_text,
     attempts,
     closest_refusal,
-    less_sure,
     more_wheels_may_do,
     substitutions,
+    with_lower_reliability,
 )
 from ocs_design.sizing.mounting import DeviceMounting, mounting_of, placement_warnings
-from ocs_design.sizing.on_robot import NeverHeld
+from ocs_design.sizing.on_robot import NoMountHolds
 from ocs_design.sizing.reserve import Reserve
 from ocs_design.sizing.selection.rejections import Refused
 from ocs_design.sizing.sized import Designed
@@ -163,7 +163,7 @@ def size_on_robot(
         if isinstance(error, Infeasible):
             error.assumptions, error.warnings = resolved.assumptions, robot.warnings
             if specification.asks_nothing and not isinstance(error, Refused):
-                error.hint = f"{unasked(resolved.requirement.maneuvers)} {error.hint}"
+                error.hint = f"{defaults_text(resolved.requirement.maneuvers)} {error.hint}"
         raise
     forget_collision_model()
     return placed
@@ -202,7 +202,7 @@ def size_or_advise(
     best, tried = _lightest_attempt(attempts(specification), specification, robot, steps)
     if best is None:
         best, tried_again = _lightest_attempt(
-            less_sure(specification, tried), specification, robot, steps
+            with_lower_reliability(specification, tried), specification, robot, steps
         )
         tried += tried_again
     if best is not None:
@@ -241,7 +241,7 @@ def _lightest_attempt(
             try:
                 # A device that is replaced by a lighter one need not be free of warnings.
                 placed = size_on_robot(attempt, robot, strict=False)
-            except (Refused, NeverHeld) as error:
+            except (Refused, NoMountHolds) as error:
                 tried.append(Attempt.refused(attempt, error))
                 step.note = "nothing meets the specification"
                 continue
@@ -249,7 +249,9 @@ def _lightest_attempt(
                 step.note = "nothing meets the specification"
                 if tried:
                     continue
-                error.hint = f"{survivors(specification, robot, step.update)} {error.hint}"
+                error.hint = (
+                    f"{layouts_that_survive(specification, robot, step.update)} {error.hint}"
+                )
                 raise
             step.note = placed.combinations
         if best is None:
@@ -286,7 +288,7 @@ def size_for_turns(placed: Placed, steps: Steps, *, strict: bool) -> Placed:
                 resized = size_on_robot(
                     placed.specification, placed.robot, strict=strict, estimates=estimates
                 )
-            except (Refused, NeverHeld):
+            except (Refused, NoMountHolds):
                 step.note = "no device makes them in time"
                 break
         placed = resized.with_substitutions(placed.taken)
@@ -430,7 +432,7 @@ def certify(placed: Placed, proof: Proof, steps: Steps, *, strict: bool) -> tupl
                     reserve=reserve.raised(conclusion.factor),
                     estimates=placed.estimates,
                 )
-            except (Refused, NeverHeld):
+            except (Refused, NoMountHolds):
                 step.note = "no device has that reserve"
                 break
             step.note = resized.combinations

@@ -27,7 +27,7 @@ from ocs_design.requirement.sections import RequirementSection, RobotSection
 from ocs_design.requirement.specification import Specification
 from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing import on_robot
-from ocs_design.sizing.design import design_device, survivors
+from ocs_design.sizing.design import design_device, layouts_that_survive
 from ocs_design.sizing.footing.feet import Footing
 from ocs_design.workflows.pareto import read_task
 
@@ -184,7 +184,7 @@ def test_a_mount_that_alternates_between_iterations_is_refused(monkeypatch, chan
     refused = None
     try:
         design_device(task)
-    except on_robot.NeverHeld as error:
+    except on_robot.NoMountHolds as error:
         refused = error
     assert (refused is None) is accepted
     if refused is not None:
@@ -203,5 +203,5 @@ def test_infeasible_layouts_that_would_survive_a_failure_give_their_reasons(monk
 
     monkeypatch.setattr("ocs_design.sizing.design.design_device", infeasible_device)
     task = solo12()
-    text = survivors(task.specification, task.robot, lambda _: None)
+    text = layouts_that_survive(task.specification, task.robot, lambda _: None)
     assert "triad: triad lacks 20 %; double-pair: double-pair lacks 20 %; pyramid: " in text

@@ -15,7 +15,7 @@ from ocs_design.sizing.bound.infeasible import (
 )
 from ocs_design.sizing.bound.rim_problem import RimProblem, lightest_rim
 from ocs_design.sizing.bound.rim_program import solve_rim
-from ocs_design.sizing.limits import MOST_CHANGE, RIM_LIMITS
+from ocs_design.sizing.limits import LARGEST_CHANGE, RIM_LIMITS
 
 BY_NAME = {limit.name: limit for limit in RIM_LIMITS}
 few_examples = settings(max_examples=40, deadline=None, suppress_health_check=list(HealthCheck))
@@ -105,7 +105,7 @@ def test_each_relaxation_is_the_smallest(problem):
         assert not is_feasible(problem.with_limit(limit, tighter))
     for limit in RIM_LIMITS:
         if limit.name not in error.relaxations:
-            loose = limit.loosened(limit.value(problem.envelope), MOST_CHANGE)
+            loose = limit.loosened(limit.value(problem.envelope), LARGEST_CHANGE)
             assert not is_feasible(problem.with_limit(limit, loose))
 
 
@@ -119,11 +119,11 @@ def test_conflict_is_minimal(problem):
     for limit in RIM_LIMITS:
         if limit not in conflict:
             problem = problem.with_limit(
-                limit, limit.loosened(limit.value(problem.envelope), MOST_CHANGE)
+                limit, limit.loosened(limit.value(problem.envelope), LARGEST_CHANGE)
             )
     assert not is_feasible(problem)
     for limit in conflict:
-        loose = limit.loosened(limit.value(problem.envelope), MOST_CHANGE)
+        loose = limit.loosened(limit.value(problem.envelope), LARGEST_CHANGE)
         assert is_feasible(problem.with_limit(limit, loose))
 
 

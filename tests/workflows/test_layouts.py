@@ -331,7 +331,7 @@ def test_a_surviving_device_lands_whichever_drive_stops(layout, tmp_path):
 
 @pytest.mark.slow
 def test_a_refusal_names_a_surviving_layout_with_its_mass(tmp_path, monkeypatch):
-    monkeypatch.setattr("ocs_design.sizing.design.SURVIVORS", ("triad",))
+    monkeypatch.setattr("ocs_design.sizing.design.REDUNDANT_LAYOUTS", ("triad",))
     with pytest.raises(CannotSurvive) as refused:
         design_ocs(solo12_specification(**SURVIVES), out=tmp_path / "a")
     assert re.search(r"`--layout triad` \d+ g", refused.value.hint)

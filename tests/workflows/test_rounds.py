@@ -15,7 +15,7 @@ from ocs_design.requirement.phrases import About
 from ocs_design.requirement.sections import RequirementSection, RobotSection, ValidationSection
 from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.turns import TurnTo
-from ocs_design.sizing.on_robot import NeverHeld
+from ocs_design.sizing.on_robot import NoMountHolds
 from ocs_design.workflows import rounds
 from ocs_design.workflows.rounds import Placed, size_for_turns, size_or_advise
 from ocs_design.workflows.size import design_ocs
@@ -117,7 +117,7 @@ def test_more_wheels_replace_heavy_motors_where_they_are_lighter(
         tried.append(key)
         mass = masses.get(key, masses.get(key[0], 3.0))
         if mass is None:
-            raise NeverHeld(placed.designed.choice.chosen, 1.0)
+            raise NoMountHolds(placed.designed.choice.chosen, 1.0)
         return with_masses(placed, specification, mass, motor)
 
     monkeypatch.setattr(rounds, "size_on_robot", size_one)

@@ -15,7 +15,7 @@ from ocs_design.sizing.bound.device_problem import (
 )
 from ocs_design.sizing.bound.rim_problem import RimProblem, lightest_rim, smallest_rim_inertia
 from ocs_design.sizing.limits import (
-    MOST_CHANGE,
+    LARGEST_CHANGE,
     PRECISION,
     RIM_LIMITS,
     STRESS,
@@ -151,7 +151,7 @@ def conflicting_limits(problem: RimProblem) -> tuple[Limit, ...]:
     """
     needed = []
     for limit in reversed(limits_set(problem)):
-        loosest = limit.loosened(limit.value(problem.envelope), MOST_CHANGE)
+        loosest = limit.loosened(limit.value(problem.envelope), LARGEST_CHANGE)
         without = problem.with_limit(limit, loosest)
         if is_feasible(without):
             needed.append(limit)
