@@ -280,7 +280,7 @@ def starts(found: list[Found]) -> str:
 
 def refusals(found: list[Found]) -> str:
     """A row for each robot that no motor turns: what came closest, and what would do."""
-    header = ("robot", "mass", "closest of all motors", "a motor that would do", "lightest")
+    header = ("robot", "mass", "closest of all motors", "a motor that would suffice", "lightest")
     rows = ((each.name, f"{each.mass:.1f} kg", *refusal(each)) for each in found if each.refused)
     return table(header, rows)
 
@@ -303,7 +303,7 @@ def verdict(found: list[Found]) -> str:
     short = [name for name, success in flown.items() if success["high"] < RELIABILITY]
     samples = sum(success["flown"] for success in flown.values())
     return (
-        f"Of {len(flown)} devices, flown {samples:,} times in all, the interval of {len(short)} "
+        f"For {len(short)} of {len(flown)} devices, flown {samples:,} times in total, the interval "
         f"lies below 99 %{': ' if short else ''}{', '.join(short)}.\n"
     )
 
@@ -313,7 +313,7 @@ def built(found: list[Found]) -> str:
     there = [each for each in found if not each.refused and each.sized["buildable"]["yes"]]
     masses = [(each.sized["ocs"]["mass_total"], each.name) for each in there]
     least, most = (f"{grams(mass)} ({name})" for mass, name in (min(masses), max(masses)))
-    return f"{len(there)} of {len(found)} can be built, of {least} to {most}.\n"
+    return f"{len(there)} of {len(found)} get a buildable device, from {least} to {most}.\n"
 
 
 TABLES: Mapping[str, Callable[[list[Found]], str]] = {
