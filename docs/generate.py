@@ -80,17 +80,21 @@ def walk(
 
 
 def section_keys(section: str) -> str:
-    """Table of one section's keys, each with its option where there is one."""
-    known = {
-        option
-        for command in commands().values()
+    """Table of one section's keys, each with its option where there is one.
+
+    An option that `size` does not have is shown with a command that has it.
+    """
+    places = {
+        option: name
+        for name, command in commands().items()
         for parameter in command.params
         for option in parameter.opts
     }
+    places |= {option: "" for each in commands()["size"].params for option in each.opts}
     rows = []
     for name, key in keys_of(SECTIONS[section]).items():
         option = OPTIONS.get(f"{section}.{name}", f"--{key.option or name.replace('_', '-')}")
-        shown = f"`{option}`" if option in known else ""
+        shown = f"`{f'{places[option]} {option}'.strip()}`" if option in places else ""
         rows.append((f"`{name}`", shown, accepts(key.value), key.summary))
     return table(("key", "option", "takes", "meaning"), rows)
 

@@ -137,6 +137,23 @@ def test_commands_that_the_docs_show_have_valid_options(generate):
     assert tried > 20
 
 
+OF_COMMAND = re.compile(r"`(?:ocs-design )?([a-z]+)\b[^`]*?(--[a-z][a-z-]+)")
+
+
+def test_options_that_messages_and_exported_files_name_are_of_that_command(generate):
+    """A controller's README told `size --desaturate`, which only `validate` has."""
+    known = generate.commands()
+    files = [*(ROOT / "ocs_design").rglob("*.py"), *(ROOT / "templates").rglob("*.md")]
+    told = [pair for each in files for pair in OF_COMMAND.findall(each.read_text())]
+    told = [(name, option) for name, option in told if name in known]
+    options = {
+        name: {"--help", *(option for each in of.params for option in each.opts)}
+        for name, of in known.items()
+    }
+    assert [(name, option) for name, option in told if option not in options[name]] == []
+    assert len(told) > 10
+
+
 def test_no_message_points_to_a_page_that_the_wheel_lacks():
     for path in (ROOT / "ocs_design").rglob("*.py"):
         if "docs/" not in (source := path.read_text()):

@@ -21,14 +21,13 @@ from ocs_design.requirement.boundary import (
     Freedom,
     Push,
 )
+from ocs_design.requirement.phrases import GRAVITY
 from ocs_design.requirement.values import (
     INCIDENCE,
     SPIN,
     TILT,
     TIME,
     Quantities,
-    Quantity,
-    Sign,
     Text,
     Vector3,
 )
@@ -89,11 +88,7 @@ class Maneuver(ABC):
     """
 
     name: Annotated[str, Text(), "your choice, different for each maneuver"]
-    gravity: Annotated[
-        float,
-        Quantity(Dimension.ACCELERATION, Sign.NOT_NEGATIVE),
-        "gravity, if not that of [requirement]",
-    ] = STANDARD_GRAVITY
+    gravity: Annotated[float, GRAVITY, "gravity, if not that of [requirement]"] = STANDARD_GRAVITY
     incidence: Annotated[
         float | None, INCIDENCE, "angle, if the modules are turned by hand for this maneuver"
     ] = None

@@ -342,7 +342,10 @@ def _margin_table(worlds: Mapping[str, World], period: float) -> str:
 
 
 _DELAY = "This\ndesign was sized for {:.3g} to {:.3g} ms (`torque_delay` of its `[reality]`)."
-_NOT_BRAKED = "This design does not brake the wheels in stance; `size --desaturate` does."
+_NOT_BRAKED = (
+    "This design does not brake the wheels in stance; one sized with `desaturate = true` under\n"
+    "  `[validation]` does."
+)
 _BRAKED = "After some time on the ground it also brakes the wheels (constants `brake_...`)."
 
 

@@ -84,7 +84,7 @@ def test_file_and_options_give_the_same_specification():
 
 
 def test_maneuvers_take_their_defaults_and_the_files_gravity():
-    text = f"[requirement]\ngravity = 3.71\n{DROP}{FLIP}gravity = 1.62\n"
+    text = f"[requirement]\ngravity = 3.71\n{DROP}{FLIP}gravity = 'moon'\n"
     drop, flip = parse_specification(text, "x").maneuvers
     assert (drop.gravity, drop.roll, drop.incidence) == (3.71, 0.0, None)
     assert flip.gravity == 1.62
