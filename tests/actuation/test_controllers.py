@@ -1,4 +1,4 @@
-"""The rule for controllers' masses against what can be bought."""
+"""The estimated mass of motor controllers against commercial ones."""
 
 from dataclasses import dataclass, replace
 
@@ -16,7 +16,7 @@ from ocs_design.catalogue.motors import motors
 
 @dataclass(frozen=True)
 class Controller:
-    """Mass [kg] and peak current, amplitude of a phase [A], of one that can be bought."""
+    """Mass [kg] and peak current, amplitude of a phase [A], of a commercial controller."""
 
     name: str
     mass: float
@@ -43,7 +43,7 @@ KNOWN = (
 )
 
 
-def test_the_rule_is_the_least_squares_of_the_known_ones():
+def test_the_estimate_is_a_least_squares_fit():
     current = np.array([each.peak_current for each in KNOWN])
     mass = np.array([each.mass for each in KNOWN])
     slope, base = np.polyfit(current, mass, 1)
@@ -51,14 +51,14 @@ def test_the_rule_is_the_least_squares_of_the_known_ones():
     assert pytest.approx(slope, rel=0.01) == MASS_PER_CURRENT
 
 
-def test_the_rule_is_as_far_off_as_it_says():
+def test_the_error_of_the_estimate_is_as_documented():
     ratios = [controller_mass(each.peak_current) / each.mass for each in KNOWN]
     assert min(ratios) == pytest.approx(0.5, abs=0.05)
     assert max(ratios) == pytest.approx(2.3, abs=0.1)
 
 
 def test_a_motor_by_hand():
-    """0.55 N m of 0.0212 N m/A are 26 A through two lines, 30 A of a phase's sine: 15 g."""
+    """0.55 N m at 0.0212 N m/A are 26 A between two lines, an amplitude of 30 A: 15 g."""
     motor = replace(next(iter(motors().values())), peak_torque=0.55, torque_constant=0.0212)
     assert controller_mass_of(motor) == pytest.approx(0.0151, abs=1e-4)
     assert controller_mass_of(replace(motor, torque_constant=None)) == 0.0

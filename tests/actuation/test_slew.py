@@ -1,6 +1,6 @@
-"""Quickest slews: the special cases of the theory, round trips, optimality, limits, their course.
+"""Fastest slews: special cases of the theory, round trips, optimality, limits, speed profiles.
 
-The course, on weak supplies too, is compared with the motor's equation and with bounds.
+Profiles, also with weak supplies, are compared with the motor's equation and with bounds.
 """
 
 from dataclasses import replace
@@ -34,7 +34,7 @@ EC45 = DriveLine(1.4566, 650.4, 1.0, INF)
 
 
 def random_slews(rng, count):
-    """Drives of every kind, with inertias, final speeds and angles from far below to far above."""
+    """Drives of every kind, with a wide range of inertias, final speeds and angles."""
     stall, no_load = 10 ** rng.uniform(-2, 2, count), 10 ** rng.uniform(1, 4, count)
     limit = stall * 10 ** rng.uniform(-3, 2, count)
     speed_max = np.where(rng.random(count) < 0.5, INF, no_load * rng.uniform(0.05, 1.3, count))
@@ -52,7 +52,7 @@ def random_slews(rng, count):
 def slew_angle(time, inertia, line, final_speed=0.0):
     """Largest phi within `time` [rad], the inverse of `slew_time`.
 
-    Negative where the wheel gets to its final speed, but late; NaN where it does not get there.
+    Negative where the wheel reaches its final speed late, NaN where it does not reach it.
     """
     drive, unit = in_units(line, inertia)
     final = np.asarray(final_speed) / drive.no_load_speed
@@ -65,7 +65,7 @@ def slew_angle(time, inertia, line, final_speed=0.0):
     return np.where(attainable, angle * drive.no_load_speed * unit, np.nan)
 
 
-def test_torque_alone():
+def test_limited_by_torque_only():
     """t = 2 sqrt(I_b theta / tau), peak 2 theta / (xi t), with theta = xi phi, I_red = xi I_b."""
     inertia, torque, phi = 9e-5, 0.3, np.array([1e-6, 0.1, 30.0, 200.0])
     expected = 2.0 * np.sqrt(inertia * phi / torque)
@@ -75,7 +75,7 @@ def test_torque_alone():
     np.testing.assert_allclose(profile.peak_speed, 2.0 * phi / expected, rtol=1e-14)
 
 
-def test_voltage_line_alone():
+def test_limited_by_voltage_only():
     """t = 2 T arccosh(exp(phi / (2 w_0 T))), switch at t/2 + T ln cosh(t / 2T)."""
     inertia, stall, no_load = 9e-5, 1.4566, 650.4
     constant = inertia * no_load / stall
@@ -89,17 +89,19 @@ def test_voltage_line_alone():
     np.testing.assert_allclose(profile.peak_speed, peak, rtol=1e-13)
 
 
-def test_there_and_back_to_ten_digits():
+def test_time_and_angle_are_inverse_to_each_other():
     phi, inertia, line, final = random_slews(np.random.default_rng(1), 50_000)
     time = slew_time(phi, inertia, line, final)
     assert np.isfinite(time).all()
-    # With a final speed, phi is a difference: it has the digits of the whole angle.
+    # With a final speed phi is a difference, with errors relative to the whole angle.
     error = np.abs(slew_angle(time, inertia, line, final) - phi) / (phi + final * time)
     assert error.max() < 1e-12
     rest = final == 0.0
     assert np.abs(slew_angle(time, inertia, line, final) / phi - 1.0)[rest].max() < 1e-12
-    settled = np.abs(slew_time(slew_angle(time, inertia, line, final), inertia, line, final) - time)
-    assert (settled[rest] / time[rest]).max() < 1e-12
+    difference = np.abs(
+        slew_time(slew_angle(time, inertia, line, final), inertia, line, final) - time
+    )
+    assert (difference[rest] / time[rest]).max() < 1e-12
 
 
 SCALE = st.floats(-3.0, 3.0).map(lambda exponent: 10.0**exponent)
@@ -114,7 +116,7 @@ LIMITS = st.one_of(st.just(INF), SCALE)
     final=st.floats(0.0, 0.99),
     inertia=SCALE,
 )
-def test_there_and_back_at_the_corners(phi, stall, limit, speed_max, final, inertia):
+def test_time_and_angle_are_inverse_at_extreme_limits(phi, stall, limit, speed_max, final, inertia):
     line = DriveLine(stall, 1.0, limit, speed_max)
     end = final * min(1.0, speed_max)
     time = float(slew_time(phi, inertia, line, end))
@@ -134,7 +136,7 @@ def test_times_scale_with_the_inertia(phi, stall, limit, speed_max, final, scale
     assert slew_time(scale * phi, scale, line, end) == pytest.approx(scale * time, rel=1e-11)
 
 
-def test_more_of_anything_is_quicker():
+def test_stronger_faster_or_lighter_drives_need_no_more_time():
     rng = np.random.default_rng(2)
     phi, inertia, line, final = random_slews(rng, 20_000)
     time = slew_time(phi, inertia, line, final)
@@ -152,9 +154,9 @@ def test_more_of_anything_is_quicker():
 
 
 def farthest_by_linear_program(time, inertia, line, final, steps):
-    """Largest integral of W - W_f over all speed curves that the drive allows, on a grid.
+    """Largest integral of W - W_f over all feasible speed profiles, on a grid.
 
-    The limits on dW/dt are linear in W: a linear program that knows nothing of switching.
+    The limits on dW/dt are linear in W: a linear program without assumptions on switching.
     """
     dt = time / steps
     index = np.arange(steps)
@@ -175,26 +177,26 @@ def farthest_by_linear_program(time, inertia, line, final, steps):
     weights[[0, -1]] /= 2.0
     top = min(line.no_load_speed, line.speed_max)
     bounds = [(0.0, 0.0)] + [(0.0, top)] * (steps - 1) + [(final, final)]
-    answer = linprog(
+    solution = linprog(
         -weights,
         A_ub=vstack([matrix for matrix, _ in limits]),
         b_ub=np.repeat([bound for _, bound in limits], steps),
         bounds=bounds,
         method="highs",
     )
-    assert answer.status == 0
-    return -answer.fun - final * time
+    assert solution.status == 0
+    return -solution.fun - final * time
 
 
 @pytest.mark.parametrize("lam", [0.4, 0.9, 1.5, 5.0])
 @pytest.mark.parametrize("final", [0.0, 250.0])
 @pytest.mark.parametrize("speed_max", [INF, 400.0])
-def test_nothing_is_quicker(lam, final, speed_max):
+def test_no_speed_profile_is_faster(lam, final, speed_max):
     line = DriveLine(1.4566, 650.4, 1.4566 * lam, speed_max)
     inertia, time = 9e-5, 0.2
     by_program = farthest_by_linear_program(time, inertia, line, final, 400)
     phi = slew_angle(time, inertia, line, final)
-    # The grid rounds the corners of the speed curve, each by up to dW dt / 8 or so.
+    # The grid rounds the corners of the profile, each by up to about dW dt / 8.
     assert phi == pytest.approx(by_program, rel=1e-4)
 
 
@@ -203,7 +205,7 @@ def test_impossible_slews():
     assert np.isinf(slew_time(1.0, 1e-4, line, [80.0, 90.0, 200.0])).all()
     assert np.isinf(slew_time(INF, 1e-4, line))
     assert np.isnan(slew_angle(1.0, 1e-4, line, 80.0))
-    # 0.5 N m on 1e-4 kg m2 need 10 ms to 50 rad/s.
+    # 0.5 N m on 1e-4 kg m^2 need 10 ms to reach 50 rad/s.
     angle = slew_angle([0.0099, 0.0101], 1e-4, line, 50.0)
     assert np.isnan(angle[0])
     assert angle[1] == pytest.approx(-50.0 * 0.01 / 2.0, rel=0.05)
@@ -211,13 +213,12 @@ def test_impossible_slews():
 
 def test_no_angle_takes_no_time_but_a_final_speed_does():
     assert slew_time(0.0, 9e-5, EC45) == 0.0
-    # Up beyond 100 rad/s and back, so that the mean is 100: the torque-limited peak is
-    # W_f (1 + 1 / sqrt 2).
+    # Beyond 100 rad/s and back, so that the mean is 100: the peak is W_f (1 + 1 / sqrt 2).
     expected = 9e-5 / 1.0 * (2.0 * (1.0 + np.sqrt(0.5)) - 1.0) * 100.0
     assert slew_time(0.0, 9e-5, EC45, 100.0) == pytest.approx(expected, rel=1e-13)
 
 
-def test_a_supply_whose_power_friction_takes_whole_moves_nothing():
+def test_without_power_no_slew_is_possible():
     line = DriveLine(1.4566, 650.4, 1.0, INF, power_max=0.0)
     assert np.isinf(slew_time([1.0, 0.0], 9e-5, line, [0.0, 100.0])).all()
     assert slew_time(0.0, 9e-5, line) == 0.0
@@ -248,12 +249,12 @@ def exact_log(y: float) -> float:
 @pytest.mark.parametrize(
     ("function", "exact"), [(exp_remainder, exact_exp), (log_remainder, exact_log)]
 )
-def test_full_precision_at_every_size(function, exact):
+def test_remainders_are_exact_at_every_size(function, exact):
     expected = np.array([exact(float(point)) for point in POINTS])
     np.testing.assert_allclose(function(POINTS), expected, rtol=3e-15)
 
 
-def test_ends():
+def test_remainders_at_zero_and_infinity():
     assert exp_remainder(np.array(0.0)) == log_remainder(np.array(0.0)) == 0.0
     assert exp_remainder(np.array(1e4)) == 9999.0
     assert exp_remainder(np.array(np.inf)) == np.inf
@@ -271,10 +272,10 @@ CASES = [
 
 
 def integrated(line, profile, motor, initial_speed=0.0):
-    """Speed at the peak and at the end, and the angle, of a drive that only knows when to brake.
+    """Speed at the peak and at the end, and angle, of a drive that brakes at the profile's time.
 
-    `I dW/dt = tau`, of a motor's torque at a speed, pushing (1) or braking (-1); nothing at the
-    highest speed. The intervals end where the equation has a kink.
+    `I dW/dt = tau` with a motor's torque at a speed, driving (1) or braking (-1); zero at the
+    highest speed. Intervals end at kinks of the equation.
     """
     speed_max = min(line.speed_max, line.no_load_speed)
 
@@ -291,14 +292,14 @@ def integrated(line, profile, motor, initial_speed=0.0):
         slope, (0.0, brake), [initial_speed, 0.0], args=(1.0,), events=reached, **options
     )
     peak, angle = up.y[:, -1]
-    held = [peak, angle + (brake - up.t[-1]) * peak]
-    down = solve_ivp(slope, (brake, end), held, args=(-1.0,), **options)
+    at_brake = [peak, angle + (brake - up.t[-1]) * peak]
+    down = solve_ivp(slope, (brake, end), at_brake, args=(-1.0,), **options)
     return peak, *down.y[:, -1]
 
 
 @pytest.mark.parametrize(("phi", "lam", "speed_max", "final"), CASES[2::5])
-def test_the_motor_equation_gives_the_same_course(phi, lam, speed_max, final):
-    """The torque is from `V = R i + k_t W` with the current clipped."""
+def test_the_motor_equation_gives_the_same_profile(phi, lam, speed_max, final):
+    """The torque follows from `V = R i + k_t W` with limited current."""
     line = DriveLine(STALL, NO_LOAD, lam * STALL, speed_max)
     profile = slew_profile(phi, INERTIA, line, final)
 
@@ -314,8 +315,8 @@ def test_the_motor_equation_gives_the_same_course(phi, lam, speed_max, final):
     assert profile.peak_torque == pytest.approx(max(map(abs, ends)), rel=1e-9)
 
 
-def test_the_phases_add_up_to_the_time_to_the_last_digits():
-    """Each by its own formula."""
+def test_the_phases_add_up_to_the_time():
+    """To rounding, each by its own formula."""
     rng = np.random.default_rng(12)
     count = 20_000
     lam = np.where(rng.random(count) < 0.5, 1.0, 10 ** rng.uniform(-1, 0.5, count))
@@ -328,7 +329,7 @@ def test_the_phases_add_up_to_the_time_to_the_last_digits():
     assert (error / np.maximum(profile.end, 1.0)).max() < 1e-14
 
 
-def test_many_at_once_and_what_cannot_be_done():
+def test_arrays_with_impossible_slews():
     line = DriveLine(STALL, NO_LOAD, np.array([0.3, 1.0, 3.0]), 500.0)
     profile = slew_profile([20.0, 60.0, 60.0], INERTIA, line, [0.0, 0.0, 600.0])
     for figure in (profile.end, profile.brake_from, profile.peak_speed):
@@ -340,25 +341,27 @@ def test_many_at_once_and_what_cannot_be_done():
 
 
 STRONG, FAST = 8.0, 1100.0
-WHOLE = STRONG * FAST
-"""V^2 / R, the power at stall [W]."""
+STALL_POWER = STRONG * FAST
+"""V^2 / R [W]."""
 
 
 def power(line, speed, torque):
-    """R i^2 and what the wheel takes [W], by V = R i + k_t w."""
+    """R i^2 plus mechanical power [W], by V = R i + k_t w."""
     return torque * (torque * line.no_load_speed / line.stall_torque + speed)
 
 
 def strongest(line, speed, sense):
-    """Torque up (1) or down (-1) that line, current and power leave, on a fine grid."""
+    """Largest torque, driving (1) or braking (-1), within all limits, on a fine grid."""
     torque = sense * np.linspace(0.0, line.torque_limit, 4001)
     volts = speed / line.no_load_speed + torque / line.stall_torque
-    fits = (np.abs(volts) <= 1.0 + 1e-9) & (np.abs(power(line, speed, torque)) <= line.power_max)
-    return torque[np.argmin(fits) - 1] if not fits.all() else torque[-1]
+    feasible = (np.abs(volts) <= 1.0 + 1e-9) & (
+        np.abs(power(line, speed, torque)) <= line.power_max
+    )
+    return torque[np.argmin(feasible) - 1] if not feasible.all() else torque[-1]
 
 
 def torque_at(line, speed, sense):
-    """Torque of the drive [N m], pushing (1) or braking (-1)."""
+    """Torque of the drive [N m], driving (1) or braking (-1)."""
     drive = UnitDrive.of(line)
     x = np.asarray(speed) / drive.no_load_speed
     return drive.torque * (drive.accelerating(x) if sense > 0.0 else -drive.braking(x))
@@ -366,15 +369,15 @@ def torque_at(line, speed, sense):
 
 @pytest.mark.parametrize("share", [0.02, 0.1, 0.24])
 @pytest.mark.parametrize("lam", [0.07, 0.2, 0.9])
-def test_the_wheel_takes_all_that_the_supply_leaves(share, lam):
-    line = DriveLine(STRONG, FAST, lam * STRONG, INF, share * WHOLE)
-    # Currents above that whose heat alone takes all the power are left out.
-    most = min(line.torque_limit, np.sqrt(share) * STRONG)
+def test_the_torque_is_the_largest_that_the_supply_permits(share, lam):
+    line = DriveLine(STRONG, FAST, lam * STRONG, INF, share * STALL_POWER)
+    # Currents are limited to that whose heat alone needs all the power.
+    torque_max = min(line.torque_limit, np.sqrt(share) * STRONG)
     for speed in FAST * np.linspace(0.01, 0.97, 25):
         for sense in (1.0, -1.0):
-            found = strongest(replace(line, torque_limit=most), speed, sense)
-            own = torque_at(line, speed, sense)
-            assert own == pytest.approx(found, rel=2e-3, abs=6e-4 * most)
+            expected = strongest(replace(line, torque_limit=torque_max), speed, sense)
+            torque = torque_at(line, speed, sense)
+            assert torque == pytest.approx(expected, rel=2e-3, abs=6e-4 * torque_max)
 
 
 @pytest.mark.parametrize(
@@ -387,9 +390,9 @@ def test_the_wheel_takes_all_that_the_supply_leaves(share, lam):
         pytest.mark.exhaustive,
     ),
 )
-def test_the_motor_equation_gives_the_same_course_on_a_weak_supply(share, lam, speed_max, slew):
+def test_the_motor_equation_gives_the_same_profile_on_a_weak_supply(share, lam, speed_max, slew):
     phi, final = slew
-    line = DriveLine(STRONG, FAST, lam * STRONG, speed_max, share * WHOLE)
+    line = DriveLine(STRONG, FAST, lam * STRONG, speed_max, share * STALL_POWER)
     profile = slew_profile(phi, INERTIA, line, final)
     peak, last, angle = integrated(line, profile, lambda *state: torque_at(line, *state).item())
     assert profile.peak_speed == pytest.approx(peak, rel=1e-6)
@@ -398,28 +401,28 @@ def test_the_motor_equation_gives_the_same_course_on_a_weak_supply(share, lam, s
 
 
 def by_the_motor_equation(line, speed, sense):
-    """Torque by V = R i + k_t w that also keeps to current and power [N m], pushing or braking.
+    """Torque by V = R i + k_t w within current and power [N m], driving or braking.
 
-    Currents whose heat alone takes all the power are left out.
+    Currents are limited to that whose heat alone needs all the power.
     """
     along, heat = sense * speed, line.no_load_speed / line.stall_torque
-    cold = np.sqrt(line.power_max / heat)
-    torque = min(line.torque_limit, cold, line.stall_torque - along / heat)
+    heat_limit = np.sqrt(line.power_max / heat)
+    torque = min(line.torque_limit, heat_limit, line.stall_torque - along / heat)
     if power(line, along, torque) > line.power_max:
         torque = (np.sqrt(along**2 + 4.0 * heat * line.power_max) - along) / (2.0 * heat)
     elif along < -2.0 * np.sqrt(heat * line.power_max):
-        most = (-along - np.sqrt(along**2 - 4.0 * heat * line.power_max)) / (2.0 * heat)
-        torque = min(torque, most)
+        feedback_limit = (-along - np.sqrt(along**2 - 4.0 * heat * line.power_max)) / (2.0 * heat)
+        torque = min(torque, feedback_limit)
     return sense * torque
 
 
 @pytest.mark.parametrize("slew", [(0.5, 0.0), (150.0, 0.0), (20.0, 100.0)])
 @pytest.mark.parametrize(("share", "lam"), [(INF, 0.3), (INF, 1.5), (0.1, 0.3), (0.02, 0.2)])
 @pytest.mark.parametrize("initial_speed", [-600.0, -200.0, 300.0])
-def test_a_wheel_that_turns_at_the_start_obeys_the_motor_equation(initial_speed, share, lam, slew):
-    """Against the slew, back EMF helps to stop it; the way back to that speed has less voltage."""
+def test_a_wheel_with_an_initial_speed_obeys_the_motor_equation(initial_speed, share, lam, slew):
+    """Backwards, back EMF helps to stop it, and leaves less voltage to return to its speed."""
     phi, gain = slew
-    line = DriveLine(STRONG, FAST, lam * STRONG, 900.0, share * WHOLE)
+    line = DriveLine(STRONG, FAST, lam * STRONG, 900.0, share * STALL_POWER)
     profile = slew_profile(phi, INERTIA, line, gain, initial_speed)
     motor = partial(by_the_motor_equation, line)
     peak, last, angle = integrated(line, profile, motor, initial_speed)
@@ -428,22 +431,22 @@ def test_a_wheel_that_turns_at_the_start_obeys_the_motor_equation(initial_speed,
     assert angle - (initial_speed + gain) * float(profile.end) == pytest.approx(
         phi, rel=1e-6, abs=1e-5
     )
-    ways = (initial_speed, peak, 1.0), (peak, last, -1.0)
-    most = max(
-        abs(motor(speed, sense)) for a, b, sense in ways for speed in np.linspace(a, b, 2_000)
+    phases = (initial_speed, peak, 1.0), (peak, last, -1.0)
+    largest = max(
+        abs(motor(speed, sense)) for a, b, sense in phases for speed in np.linspace(a, b, 2_000)
     )
-    assert profile.peak_torque == pytest.approx(most, rel=2e-3)
+    assert profile.peak_torque == pytest.approx(largest, rel=2e-3)
 
 
 def on_weak_supplies(count):
-    """Slews of drives of every kind, some with far less power than they could use."""
+    """Slews of drives of every kind, some with much less power than they could use."""
     rng = np.random.default_rng(5)
     phi, inertia, line, final = random_slews(rng, count)
-    whole = line.stall_torque * line.no_load_speed
-    return phi, inertia, replace(line, power_max=whole * 10 ** rng.uniform(-3, 0.5, count)), final
+    power_max = line.stall_torque * line.no_load_speed * 10 ** rng.uniform(-3, 0.5, count)
+    return phi, inertia, replace(line, power_max=power_max), final
 
 
-def test_no_slew_takes_or_feeds_back_more():
+def test_no_slew_exceeds_the_power_of_the_supply():
     phi, inertia, line, final = on_weak_supplies(1500)
     profile = slew_profile(phi, inertia, line, final)
     for part in np.linspace(0.0, 1.0, 41):
@@ -453,20 +456,20 @@ def test_no_slew_takes_or_feeds_back_more():
             assert np.nanmax(np.abs(used)) <= 1.0 + 1e-6
 
 
-def test_it_lies_between_no_limit_and_a_current_that_never_passes_it():
+def test_times_with_limited_power_are_between_bounds():
     phi, inertia, line, final = on_weak_supplies(1500)
     limited = slew_time(phi, inertia, line, final)
     free = slew_time(phi, inertia, replace(line, power_max=INF), final)
     assert np.all(limited >= free * (1.0 - 1e-9))
-    # At full voltage V i <= P: a torque of P / w_0 is never too much.
-    # At rest the power is all heat, and plain currents above its root are left out.
+    # A torque of P / w_0 never exceeds the power, as V i <= P at full voltage. At rest all power is
+    # heat, which limits the current.
     heat = np.sqrt(line.power_max * line.stall_torque / line.no_load_speed)
-    least = np.min([line.torque_limit, heat, line.power_max / line.no_load_speed], axis=0)
-    capped = replace(line, power_max=INF, torque_limit=least)
+    torque_limit = np.min([line.torque_limit, heat, line.power_max / line.no_load_speed], axis=0)
+    capped = replace(line, power_max=INF, torque_limit=torque_limit)
     assert np.all(limited <= slew_time(phi, inertia, capped, final) * (1.0 + 1e-9))
 
 
-def test_more_power_is_never_slower_and_a_lot_is_no_limit():
+def test_more_power_is_never_slower_and_ample_power_is_no_limit():
     phi, inertia, line, final = on_weak_supplies(2000)
     times = [
         slew_time(phi, inertia, replace(line, power_max=line.power_max * factor), final)

@@ -1,4 +1,4 @@
-"""Two wheels at an angle, and the screws of their motors."""
+"""Two wheels at an incidence, and the screws of their motors."""
 
 from dataclasses import dataclass
 from itertools import pairwise
@@ -35,7 +35,7 @@ class Pair:
 
     @property
     def mass_matrix(self):
-        """Of roll and pitch rate and both wheel speeds, (4, 4), from the energy of each body."""
+        """Mass matrix of roll and pitch rate and wheel speeds, (4, 4), from each body's energy."""
         s, c = np.sin(self.incidence), np.cos(self.incidence)
         sense = -1.0 if self.gear.reverses else 1.0
         matrix = np.diag([*TRUNK, 0.0, 0.0])
@@ -61,16 +61,16 @@ class Pair:
         return armature(ROTOR, self.gear)
 
     def task(self, angle, rate):
-        """Turn by `angle`, from `rate` with wheels at rest, to rest: P and L."""
-        whole = self.mass_matrix[:2, :2]
-        inertia = TiltInertia(np.diag(whole), whole[0, 1])
+        """Task of a turn by `angle`, from `rate` with wheels at rest, to rest."""
+        trunk = self.mass_matrix[:2, :2]
+        inertia = TiltInertia(np.diag(trunk), trunk[0, 1])
         return WheelTask(
-            whole @ angle, whole @ rate, np.nan, inertia, module_axes(self.incidence)[:2]
+            trunk @ angle, trunk @ rate, np.nan, inertia, module_axes(self.incidence)[:2]
         )
 
 
 def motor_torque(speed, direction):
-    """From full voltage in `direction`, current clipped, at the wheel [N m]."""
+    """Torque at the wheel from full voltage in `direction`, with limited current [N m]."""
     torque = LINE.stall_torque * (direction - speed / LINE.no_load_speed)
     return np.clip(torque, -LINE.torque_limit, LINE.torque_limit)
 
@@ -84,8 +84,8 @@ def flight(pair, rate, drive, times):
         def slope(_, y, phase=phase):
             return np.concatenate([y[4:], np.linalg.solve(matrix, drive(phase, y[6:], matrix))])
 
-        answer = solve_ivp(slope, (start, end), state, method="DOP853", rtol=1e-12, atol=1e-13)
-        state = answer.y[:, -1]
+        solution = solve_ivp(slope, (start, end), state, method="DOP853", rtol=1e-12, atol=1e-13)
+        state = solution.y[:, -1]
     return state
 
 
@@ -122,9 +122,9 @@ def test_a_slew_about_pitch(pair, angle, rate):
     assert state[:2] == pytest.approx([0.0, -angle], abs=1e-8 * angle)
     assert state[4:6] == pytest.approx([0.0, 0.0], abs=1e-8)
     assert state[6:] == pytest.approx([float(final)] * 2, rel=1e-8, abs=1e-6)
-    # What it sweeps beyond its final speed, and that speed all the time.
-    turned = float(load.angle(pair.spin_inertia) + final * profile.end)
-    assert state[2:4] == pytest.approx([turned, turned], rel=1e-8)
+    # The angle swept beyond the final speed, plus that of the final speed.
+    swept = float(load.angle(pair.spin_inertia) + final * profile.end)
+    assert state[2:4] == pytest.approx([swept, swept], rel=1e-8)
 
 
 COUPLED = [
@@ -139,10 +139,10 @@ COUPLED = [
     "angle", [(0.0, 0.5), (0.4, 0.0), (0.3, 0.5), (0.3, -0.5), (-0.1, 0.6), (0.02, 0.9)]
 )
 def test_a_slew_about_both_axes(pair, angle):
-    """The busier wheel on its limits, the other one in proportion, and never beyond its own.
+    """The wheel with more load is at its limits, the other in proportion and within its own.
 
-    Either wheel may be the busier one; where the trunk's axes are coupled, a turn about one of them
-    takes both. Small rates: the gyroscopic coupling is left to the full simulation.
+    Either wheel may have more load; where the trunk's axes are coupled, a turn about one of them
+    needs both. Without gyroscopic coupling, which the full simulation has.
     """
     load = pair.task(angle, [0.0, 0.0]).load()
     profile = slew_profile(
@@ -152,17 +152,17 @@ def test_a_slew_about_both_axes(pair, angle):
     roll, pitch = roll / np.sin(pair.incidence), pitch / np.cos(pair.incidence)
     turns = np.array([pitch + roll, pitch - roll])
     busy = int(np.abs(turns).argmax())
-    idle, sense = 1 - busy, np.sign(turns[busy])
-    part, torques = turns[idle] / turns[busy], []
+    other, sense = 1 - busy, np.sign(turns[busy])
+    ratio, torques = turns[other] / turns[busy], []
 
     def drive(phase, speeds, matrix):
-        """The idle wheel's torque keeps it at its part of the busy one's speed."""
-        inverse, found = np.linalg.inv(matrix)[2:, 2:], np.zeros(2)
-        found[busy] = sense * motor_torque(sense * speeds[busy], (1.0, -1.0)[phase])
-        found[idle] = found[busy] * (part * inverse[busy, busy] - inverse[idle, busy])
-        found[idle] /= inverse[idle, idle] - part * inverse[busy, idle]
-        torques.append((found[idle], speeds[idle]))
-        return np.concatenate([np.zeros(2), found])
+        """The other wheel's torque keeps the ratio of the speeds."""
+        inverse, torque = np.linalg.inv(matrix)[2:, 2:], np.zeros(2)
+        torque[busy] = sense * motor_torque(sense * speeds[busy], (1.0, -1.0)[phase])
+        torque[other] = torque[busy] * (ratio * inverse[busy, busy] - inverse[other, busy])
+        torque[other] /= inverse[other, other] - ratio * inverse[busy, other]
+        torques.append((torque[other], speeds[other]))
+        return np.concatenate([np.zeros(2), torque])
 
     times = [0.0, float(profile.brake_from), float(profile.end)]
     state = flight(pair, [0.0, 0.0], drive, times)
@@ -186,21 +186,21 @@ def test_a_slew_about_both_axes(pair, angle):
         ("M4", 0.0661, "ISO 4762 M4 x 80"),
     ],
 )
-def test_a_screw_reaches_as_deep_as_it_is_thick(name, thickness, designation):
-    found = screw(name)
-    assert found.designation(found.length_through(thickness)) == designation
+def test_thread_engagement_is_at_least_the_diameter(name, thickness, designation):
+    bolt = screw(name)
+    assert bolt.designation(bolt.length_through(thickness)) == designation
 
 
 @pytest.mark.parametrize(
     ("name", "millimetres"),
     [("M2", 20), ("M2.5", 25), ("M3", 30), ("M4", 40), ("M5", 50), ("M6", 60), ("M8", 80)],
 )
-def test_the_longest_that_is_commonly_sold(name, millimetres):
-    """The end of the range of commercial lengths of each size: ISO 4762:2004, table 1."""
+def test_the_longest_commercial_length(name, millimetres):
+    """The end of the range of commercial lengths: ISO 4762:2004, table 1."""
     assert screw(name).usual_length == pytest.approx(1e-3 * millimetres)
 
 
-def test_threads_in_plastic_are_twice_as_deep():
+def test_thread_engagement_in_plastic_is_twice_the_diameter():
     assert screw("M2").length_through(0.0016, IN_PLASTIC) == 0.006
 
 
@@ -220,19 +220,19 @@ MASSES = {
 
 
 @pytest.mark.parametrize(("name", "length"), MASSES)
-def test_screws_weigh_what_a_maker_says(name, length):
-    """Heads are of their largest size here, so that light ones come out heavier by 30 mg."""
+def test_masses_of_screws_agree_with_a_maker(name, length):
+    """Heads have their largest permitted size here, which adds up to 30 mg to small screws."""
     specified = MASSES[name, length] * 1e-3
     assert screw(name).mass(1e-3 * length) == pytest.approx(specified, rel=0.1, abs=5e-5)
 
 
-def test_every_screw_passes_its_clearance_hole_and_is_cut_into_the_other():
-    for found in SCREWS:
-        assert found.tapping_drill < found.diameter < found.clearance_hole < found.head_diameter
-        assert found.head_height == pytest.approx(found.diameter)
+def test_dimensions_of_every_screw_are_in_order():
+    for each in SCREWS:
+        assert each.tapping_drill < each.diameter < each.clearance_hole < each.head_diameter
+        assert each.head_height == pytest.approx(each.diameter)
 
 
-def test_an_unknown_name_gets_those_that_there_are():
+def test_an_unknown_screw_is_refused_with_the_known_ones():
     with pytest.raises(PartError, match="M7") as caught:
         screw("M7")
     assert "M2.5" in caught.value.hint

@@ -1,4 +1,4 @@
-"""Rings around bells: which motors have one, the pull on the bond, and the fixture."""
+"""Rings around bells: motors with a bell, tension in the bond, and the fixture."""
 
 from dataclasses import replace
 from math import pi
@@ -34,9 +34,9 @@ def test_the_bell_of_an_mn5006():
     bell = bell_of(MN5006)
     assert bell.bore == pytest.approx(0.0278 + GLUE_GAP)
     assert bell.straight == pytest.approx(0.45 * 0.025 - 0.005 - CLEARANCE)
-    # Floor, motor, shaft and clearance fill the housing's room from floor to lid.
+    # Motor, shaft and clearance fill the housing from floor to lid.
     assert bell.room + 2.0 * CLEARANCE == pytest.approx(0.025 + 0.005 + CLEARANCE)
-    # The middle of the housing is the ring's, and within the middle 45 % of the motor.
+    # The ring is in the middle of the housing, and within the middle 45 % of the motor.
     from_back = 0.025 - bell.front
     assert from_back == pytest.approx((bell.room + 2.0 * CLEARANCE) / 2.0)
     assert from_back + bell.straight / 2.0 == pytest.approx(0.025 / 2.0 + 0.45 * 0.025 / 2.0)
@@ -52,41 +52,41 @@ def test_the_bell_of_an_mn5006():
         {"length": None},
         {"diameter": None},
     ],
-    ids=["no mounting", "held by its front", "no threads", "a long shaft", "no length", "no width"],
+    ids=["no mounting", "front mounting", "no threads", "long shaft", "no length", "no diameter"],
 )
-def test_without_a_bell_that_is_known_there_is_none(changed):
+def test_motors_without_a_known_bell_have_none(changed):
     assert bell_of(replace(MN5006, **changed)) is None
 
 
-def test_its_motor_stands_on_the_floor_and_its_screws_reach_through_plate_and_floor():
+def test_screws_of_a_motor_on_the_floor_reach_through_plate_and_floor():
     mount = mount_of(MN5006, None, on_bell=True)
-    (held,) = mount.screwed
+    (screwed,) = mount.screwed
     assert mount.cage is None
-    assert held.fastening.length > PANEL + mount.foot_plate
+    assert screwed.fastening.length > PANEL + mount.foot_plate
     middle = mount.foot_plate + mount.gap + MN5006.length / 2.0
     assert middle == pytest.approx(-PANEL - MN5006.length / 2.0)
-    assert mount.behind(MN5006).depth == pytest.approx(held.fastening.screw.head_height)
+    assert mount.behind(MN5006).depth == pytest.approx(screwed.fastening.screw.head_height)
 
 
 @pytest.mark.parametrize("speed", [300.0, 1200.0])
 @pytest.mark.parametrize("expansion", [4.5e-6, BELL_EXPANSION, 20.5e-6])
-def test_the_pull_is_that_of_a_ring_on_a_bell_that_gives_nothing(speed, expansion):
-    """Against the rings' equations solved with a core of no mass, a million times as stiff."""
+def test_bond_tension_is_that_of_a_ring_on_a_rigid_bell(speed, expansion):
+    """Against the equations of rings with a massless core, a million times as stiff."""
     core = Ring(0.0, 0.0279, 0.01, 1e-9, 1e6 * 207e9, 0.3)
     ring = Ring(0.0279, 0.042, 0.01, 7833.0, 207e9, 0.32)
-    grown = [(expansion - BELL_EXPANSION) * (at - MADE) * 0.0279 for at in (COLDEST, HOTTEST)]
-    turning = [TurningRings.of((core, ring), speed, [-apart]) for apart in grown]
-    asked = bell_bond_tension(0.0279, 0.042, **STEEL, expansion=expansion, speed=speed)
-    assert asked == pytest.approx(max(-each.pressure(0) for each in turning), rel=1e-4)
+    gaps = [(expansion - BELL_EXPANSION) * (at - MADE) * 0.0279 for at in (COLDEST, HOTTEST)]
+    turning = [TurningRings.of((core, ring), speed, [-gap]) for gap in gaps]
+    tension = bell_bond_tension(0.0279, 0.042, **STEEL, expansion=expansion, speed=speed)
+    assert tension == pytest.approx(max(-each.pressure(0) for each in turning), rel=1e-4)
 
 
-def test_the_widest_ring_pulls_as_much_as_is_allowed():
+def test_the_widest_ring_has_the_permitted_bond_tension():
     figures = {name: np.array([value]) for name, value in STEEL.items()}
     figures |= {"expansion": np.array([12.3e-6]), "speed": np.array([1200.0])}
     widest = bell_bond_radius(np.array([0.0279]), 0.1, **figures)
-    pull = bell_bond_tension(0.0279, widest, **figures)
-    assert pull == pytest.approx(BOND_SHARE * EPOXY_STRENGTH, rel=1e-4)
-    assert pull <= BOND_SHARE * EPOXY_STRENGTH
+    tension = bell_bond_tension(0.0279, widest, **figures)
+    assert tension == pytest.approx(BOND_SHARE * EPOXY_STRENGTH, rel=1e-4)
+    assert tension <= BOND_SHARE * EPOXY_STRENGTH
 
 
 def test_the_fixture_holds_bell_and_ring_on_one_axis():
@@ -100,7 +100,7 @@ def test_the_fixture_holds_bell_and_ring_on_one_axis():
     radius = bell.bore - GLUE_GAP
     motor = Part("bell", 1.0, (hollow_cylinder(0.0, radius, FIXTURE_FLOOR, 0.03),))
     assert overlap_volume(fixture, ring) + overlap_volume(fixture, motor) < 1e-14
-    # They stand on step and floor: lifted off those, only the play to the sides is left.
+    # Raised off step and floor, ring and bell have only the lateral play.
     lifted = Part("ring", 1.0, (hollow_cylinder(bell.bore, outer, low + 1e-3, low + height),))
     for part in (lifted, Part("bell", 1.0, (hollow_cylinder(0.0, radius, 0.005, 0.03),))):
         assert turning_clearance([part], [fixture], 0.01) == pytest.approx(FIXTURE_FIT, abs=1e-5)

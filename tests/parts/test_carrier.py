@@ -1,4 +1,4 @@
-"""What stands still of a module: motor, gear, housing and foot."""
+"""The carrier of a module: motor, gear, housing and foot."""
 
 from dataclasses import replace
 
@@ -33,8 +33,8 @@ AT_THE_OUTPUT = Mounting(0.005, stator=BoltCircle(0.025, 4, "M3"), stator_face=F
 
 
 @pytest.mark.parametrize(("diameter", "length"), [(0.04, 0.03), (0.04, None), (None, None)])
-def test_a_motor_is_a_solid_cylinder_of_what_is_known_of_its_size(diameter, length):
-    """Without its length a disc, and without its diameter a point."""
+def test_a_motor_is_a_solid_cylinder_of_its_known_size(diameter, length):
+    """Without a length a disc, and without a diameter a point."""
     body = Carrier.of(drive_moments(replace(MOTOR, diameter=diameter, length=length)))
     square = (diameter or 0.0) ** 2 / 4.0
     assert body.mass == pytest.approx(0.12)
@@ -45,8 +45,8 @@ def test_a_motor_is_a_solid_cylinder_of_what_is_known_of_its_size(diameter, leng
 
 @pytest.mark.parametrize("thick", fast_subset(2, [0.0084, 0.005]))
 @pytest.mark.parametrize("mounting", [None, AT_THE_OUTPUT, AT_THE_BACK])
-def test_it_is_what_the_meshes_weigh(mounting, thick):
-    """Meshes have exact masses, and inertias that are out by what polygons are off circles."""
+def test_the_carrier_has_the_mass_properties_of_its_meshes(mounting, thick):
+    """Masses of meshes are exact, inertias to the deviation of polygons from circles."""
     weightless = replace(MOTOR, mass=0.0, mounting=mounting)
     foot = foot_for(weightless, DIRECT, 0.034, 0.004, thick)
     pieces = [(part, UPRIGHT, np.zeros(3)) for part in housing_parts(foot.housing)]
@@ -54,26 +54,26 @@ def test_it_is_what_the_meshes_weigh(mounting, thick):
     cage = mount_of(weightless, None, thick).around(0.004).cage
     if cage is not None:
         pieces.append((cage_part(cage), UPRIGHT, np.array([0.0, -cage.back, 0.0])))
-    expected = combine([weighed(*piece) for piece in pieces])
+    expected = combine([mesh_mass_properties(*piece) for piece in pieces])
     parts = carrier_parts(weightless, DIRECT, 0.034, 0.004, thick)
     screws = [each for each in parts if not each.inertia.any()]
-    found = standing(weightless, DIRECT, 0.034, 0.004, foot_plate=thick).mass_properties()
-    whole = combine([expected, *screws])
-    assert found.mass == pytest.approx(whole.mass, rel=1e-6)
-    np.testing.assert_allclose(found.com, whole.com, atol=1e-7)
-    np.testing.assert_allclose(found.inertia, whole.inertia, rtol=1e-4, atol=1e-10)
+    carrier = standing(weightless, DIRECT, 0.034, 0.004, foot_plate=thick).mass_properties()
+    total = combine([expected, *screws])
+    assert carrier.mass == pytest.approx(total.mass, rel=1e-6)
+    np.testing.assert_allclose(carrier.com, total.com, atol=1e-7)
+    np.testing.assert_allclose(carrier.inertia, total.inertia, rtol=1e-4, atol=1e-10)
 
 
-def weighed(part, rotation, position):
-    """A part's mesh, by trimesh."""
-    mesh = part_mesh(part, 256)
-    found = trimesh.Trimesh(mesh.vertices, mesh.triangles, process=False)
-    found.density = part.density
-    own = MassProperties(found.mass, found.center_mass, found.moment_inertia)
+def mesh_mass_properties(part, rotation, position):
+    """Mass properties of a part's mesh by trimesh."""
+    triangles = part_mesh(part, 256)
+    mesh = trimesh.Trimesh(triangles.vertices, triangles.triangles, process=False)
+    mesh.density = part.density
+    own = MassProperties(mesh.mass, mesh.center_mass, mesh.moment_inertia)
     return own.moved(rotation, position)
 
 
-def test_a_body_of_revolution_is_one_by_its_two_inertias_alone():
+def test_a_carrier_with_two_inertias_is_a_body_of_revolution():
     plain = Carrier(0.2, 3e-5, 2e-5)
     np.testing.assert_array_equal(plain.inertia, np.diag([2e-5, 3e-5, 2e-5]))
     np.testing.assert_array_equal(plain.mass_properties().com, 0.0)

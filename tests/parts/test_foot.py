@@ -1,4 +1,4 @@
-"""The foot under the housing, over its whole range of incidence."""
+"""The foot under the housing, over the full range of incidence."""
 
 from dataclasses import replace
 
@@ -23,20 +23,20 @@ from ocs_design.parts.printed import BASE_THICKNESS, CLEARANCE, SHOCK, TRUNK_SCR
 from ocs_design.parts.solids import Prism
 
 
-def test_plate_lies_on_the_drum_and_the_base_is_clear_of_both():
+def test_the_plate_touches_the_drum_and_the_base_clears_drum_and_lid():
     drum, lid = (part_manifold(part) for part in housing_parts(HOUSING))
     where = np.column_stack([FOOT.placement.rotation, FOOT.placement.position])
     foot = part_manifold(foot_part(FOOT)).transform(where)
     assert (foot ^ drum).volume() < 1e-15
     assert foot.min_gap(drum, 0.01) == pytest.approx(0.0, abs=1e-9)
-    # The band's lowest line is a corner of no polygon: up to a few um higher.
+    # The lowest line of the band is not a vertex of the polygon: a few um higher.
     assert foot.min_gap(lid, 0.01) == pytest.approx(CLEARANCE, abs=5e-6)
 
 
 @pytest.mark.parametrize("incidence", np.radians([0.0, 40.0, 90.0]))
 @pytest.mark.parametrize("side", [1.0, -1.0], ids=["left", "right"])
 def test_trunk_screws_fit_the_slots_at_any_incidence(incidence, side):
-    # Two holes in the trunk, 45 degrees off the wheel's axis at no incidence, seen from the foot.
+    # Two holes in the trunk, at 45 degrees to the wheel's axis for incidence 0, seen from the foot.
     radius, shank = FOOT.slot_radius, TRUNK_SCREW.diameter / 2.0
     for opposite in (0.0, np.pi):
         angle = np.pi / 2.0 + side * np.pi / 4.0 - side * incidence + opposite
@@ -48,7 +48,7 @@ def test_trunk_screws_fit_the_slots_at_any_incidence(incidence, side):
 
 
 def contains(slot: Prism, points) -> bool:
-    """Points lie within half its width of the slot's path."""
+    """Whether all points are within half a width of the slot's centre line."""
     half = TRUNK_SCREW.clearance_hole / 2.0
     middle = np.arctan2(*slot.outline.points.mean(axis=0)[::-1])
     path = middle + np.linspace(-np.pi / 4.0, np.pi / 4.0, 2001)
@@ -57,13 +57,13 @@ def contains(slot: Prism, points) -> bool:
     return bool(distances.max() <= half + 1e-8)
 
 
-def test_heads_clear_the_plate():
+def test_heads_of_screws_clear_the_plate():
     end = FOOT.slot_radius * np.sin(np.pi / 4.0)
     plate = HOUSING.half_height + PLATE_THICKNESS
     assert end - plate - TRUNK_SCREW.head_diameter / 2.0 == pytest.approx(WALL)
 
 
-def test_a_mark_every_ten_degrees_within_the_base():
+def test_the_base_has_a_mark_every_ten_degrees():
     marks = [cut for cut in foot_part(FOOT).cut if cut.low == BASE_THICKNESS - MARK_DEPTH]
     assert len(marks) == 36
     reach = max(np.linalg.norm(mark.outline.points, axis=1).max() for mark in marks)
@@ -75,8 +75,8 @@ def test_a_mark_every_ten_degrees_within_the_base():
     assert len(long) == 12
 
 
-def test_the_plate_grows_with_the_mount_and_needs_no_support():
-    """Above the stem its disc, which is over the base, leans out by 45 degrees at most."""
+def test_the_plate_grows_with_the_mount_and_prints_without_support():
+    """Above the stem its disc, which is over the base, overhangs by at most 45 degrees."""
     for foot, wide in ((FOOT, 0.022), (replace(FOOT, housing=Housing(0.03, 0.01)), 0.0168)):
         assert foot.half_width == pytest.approx(wide)
         assert foot.half_width >= foot.housing.mount.reach + 3e-3 - 1e-12
@@ -98,61 +98,61 @@ def test_a_stem_yields_where_a_cantilever_does():
     ("stands", "pull", "thick"), [(None, 129.9, 5.47), (63.26e-3, 135.1, 5.58)]
 )
 def test_a_base_yields_where_a_screw_bends_it(stands, pull, thick):
-    """1.38 kg and 20 g at 61 mm tilt the foot by 16.5 N m, about the edge of its base.
+    """1.38 kg at 20 g and 61 mm tilt the foot by 16.5 N m, about the edge of its base.
 
-    Its screws are at 58.8 mm on either side of the middle, 8.9 and 126.4 mm from there, and pull as
-    they are far away: 130 N, 87.0 mm from a stem 48.2 mm wide, and 5.47 mm of 47 MPa bear it. About
-    the edge of a plate of 63.3 mm, 4.5 and 122.0 mm from there: 135 N and 5.58 mm.
+    Its screws, 58.8 mm on either side of the middle, are 8.9 and 126.4 mm from that edge, with a
+    tension proportional to the distance: 130 N, 87.0 mm from a stem 48.2 mm wide, for which 5.47 mm
+    of 47 MPa suffice. About the edge of a plate of 63.3 mm, 4.5 and 122.0 mm: 135 N and 5.58 mm.
     """
     foot = Foot(Housing(0.05, 0.05, MountHoles(0.0195)), 0.009)
-    edge, out = foot.base_radius, foot.slot_radius
-    assert (1e3 * edge, 1e3 * out) == pytest.approx((67.67, 58.76), abs=0.01)
+    edge, slot = foot.base_radius, foot.slot_radius
+    assert (1e3 * edge, 1e3 * slot) == pytest.approx((67.67, 58.76), abs=0.01)
     moment = 1.38 * 20.0 * 9.80665 * foot.wheel_height
-    near, far = (stands or edge) - out, (stands or edge) + out
-    pulled = moment * far / (near**2 + far**2)
-    assert (moment, pulled) == pytest.approx((16.51, pull), rel=2e-3)
-    arm, width = out + foot.housing.half_height, 2.0 * foot.stem
-    needed = np.sqrt(6.0 * pulled * arm / (width * 47e6))
+    near, far = (stands or edge) - slot, (stands or edge) + slot
+    tension = moment * far / (near**2 + far**2)
+    assert (moment, tension) == pytest.approx((16.51, pull), rel=2e-3)
+    arm, width = slot + foot.housing.half_height, 2.0 * foot.stem
+    needed = np.sqrt(6.0 * tension * arm / (width * 47e6))
     assert 1e3 * needed == pytest.approx(thick, abs=0.01)
     assert foot_shock(foot, 1.38, stands) == pytest.approx(SHOCK * (foot.base / needed) ** 2)
 
 
-def on_a_plate(foot: Foot, mass: float) -> float:
-    """What a foot bears that tilts about the edge of a carrier plate, 4.5 mm outside its slots."""
+def shock_on_plate(foot: Foot, mass: float) -> float:
+    """Shock that a foot withstands on a carrier plate, whose edge is 4.5 mm outside its slots."""
     return foot_shock(foot, mass, min(foot.base_radius, foot.slot_radius + 4.5e-3))
 
 
-def test_a_foot_is_as_thick_as_its_load_asks_for():
-    """Go2's, of 1.35 kg: stem and base bear 20 g, and with 0.1 mm less one of them does not."""
+def test_a_foot_is_as_thick_as_its_load_requires():
+    """Go2's module, 1.35 kg: stem and base withstand 20 g, and not with 0.1 mm less."""
     housing = Housing(0.0765, 0.0153, MountHoles(0.0495))
     thickness = plate_thickness(Foot(housing), 1.35)
     assert thickness == 0.0084
-    assert on_a_plate(Foot(housing, thickness), 1.35) >= SHOCK
-    assert on_a_plate(Foot(housing, thickness - 1e-4), 1.35) < SHOCK
+    assert shock_on_plate(Foot(housing, thickness), 1.35) >= SHOCK
+    assert shock_on_plate(Foot(housing, thickness - 1e-4), 1.35) < SHOCK
     assert 1e3 * Foot(housing, thickness).base == pytest.approx(0.6 * 8.4)
     assert Foot(housing).base == BASE_THICKNESS
     assert type(Foot(housing, thickness).wheel_height) is float
 
 
 @given(st.floats(0.01, 0.2), st.floats(0.1, 1.0), st.floats(0.01, 50.0))
-def test_a_foot_bears_the_shock_or_is_a_solid_block(radius, share, mass):
+def test_a_foot_withstands_the_shock_or_is_a_solid_block(radius, share, mass):
     housing = Housing(radius, radius * share)
     thickness = plate_thickness(Foot(housing), mass)
     foot = Foot(housing, thickness)
     block = max(PLATE_THICKNESS, foot.stem)
     assert PLATE_THICKNESS <= thickness <= block
-    assert on_a_plate(foot, mass) >= SHOCK or thickness == block
+    assert shock_on_plate(foot, mass) >= SHOCK or thickness == block
     if thickness > PLATE_THICKNESS:
-        assert on_a_plate(Foot(housing, thickness - 1e-4), mass) < SHOCK
+        assert shock_on_plate(Foot(housing, thickness - 1e-4), mass) < SHOCK
     assert plate_thickness(foot, mass) == thickness <= plate_thickness(foot, 1.1 * mass)
 
 
-def test_a_stem_swings_as_a_cantilever():
-    """Alone, 3 % above the exact 0.5596 sqrt(E I / m L^3); a heavy point, sqrt(3 E I / m L^3)."""
+def test_frequency_of_a_stem_is_that_of_a_cantilever():
+    """Without load 3 % above the exact 0.5596 sqrt(E I / m L^3); else sqrt(3 E I / m L^3)."""
     arm, width = FOOT.wheel_height - 0.003, 2.0 * FOOT.stem
     bending = 1.8e9 * width * 0.005**3 / 12.0
-    own = 1270.0 * width * 0.005 * arm
-    exact = 0.5596 * np.sqrt(bending / (own * arm**3))
+    stem_mass = 1270.0 * width * 0.005 * arm
+    exact = 0.5596 * np.sqrt(bending / (stem_mass * arm**3))
     assert exact < stem_frequency(FOOT, 0.0, 0.0) < 1.03 * exact
     heavy = np.sqrt(3.0 * bending / (100.0 * arm**3)) / (2.0 * np.pi)
     assert stem_frequency(FOOT, 100.0, 0.0) == pytest.approx(heavy, rel=1e-3)

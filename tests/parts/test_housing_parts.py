@@ -1,4 +1,4 @@
-"""The printed housing by itself, and around the wheel."""
+"""The printed housing, alone and around the wheel."""
 
 from dataclasses import replace
 
@@ -26,13 +26,13 @@ from ocs_design.parts.printed import CLEARANCE, LID_SCREW, PANEL, PETG, WALL, Mo
 from ocs_design.parts.solids import total
 from ocs_design.parts.wheel import wheel_parts
 
-POLYGONS = 5e-6
-"""That the mesh's polygons are off their circles, at most [m]."""
+POLYGON_ERROR = 5e-6
+"""Largest deviation of the mesh's polygons from circles [m]."""
 
 
 @given(st.floats(0.01, 0.2), st.floats(0.002, 0.1))
-def test_without_ears_and_holes_it_is_a_plain_drum(radius, height):
-    """A full one less its hollow."""
+def test_a_housing_without_ears_and_holes_is_a_plain_drum(radius, height):
+    """A cylinder less its cavity."""
     body = total(housing_parts(Housing(radius, height)))
     inside, tall = radius + CLEARANCE, height + 2.0 * CLEARANCE
     full = (inside + WALL) ** 2 * (tall + 2.0 * PANEL)
@@ -41,11 +41,11 @@ def test_without_ears_and_holes_it_is_a_plain_drum(radius, height):
     np.testing.assert_allclose(body.com, 0.0, atol=1e-15)
 
 
-@pytest.mark.parametrize("still", fast_subset(2, housing_parts(HOUSING)[::-1]), ids=["lid", "drum"])
-def test_wheel_turns_with_its_clearance(still):
+@pytest.mark.parametrize("part", fast_subset(2, housing_parts(HOUSING)[::-1]), ids=["lid", "drum"])
+def test_the_wheel_turns_with_its_clearance(part):
     wheel = wheel_parts(TWO_PIECES)
-    assert turning_clearance(wheel, [still], 0.01) == pytest.approx(CLEARANCE, abs=POLYGONS)
-    assert all(overlap_volume(part, still) == 0.0 for part in wheel)
+    assert turning_clearance(wheel, [part], 0.01) == pytest.approx(CLEARANCE, abs=POLYGON_ERROR)
+    assert all(overlap_volume(piece, part) == 0.0 for piece in wheel)
 
 
 @pytest.mark.parametrize(
@@ -55,7 +55,7 @@ def test_two_pieces_touch_and_do_not_overlap(pieces):
     assert overlap_volume(*pieces) < 1e-15
 
 
-def test_holes_that_do_not_fit_the_floor():
+def test_holes_that_do_not_fit_the_floor_are_refused():
     wide = MountHoles(0.004, BoltCircle(0.061, 4, "M3"))
     with pytest.raises(PartError, match=r"32\.2 mm") as caught:
         housing_parts(replace(HOUSING, mount=wide))
@@ -78,7 +78,7 @@ def housing_mass(outer_radius, height):
     "shell", [PlainDrum(), Printed(0.0), Printed(0.02, guard_wall=0.002, foot_plate=0.009)]
 )
 @pytest.mark.parametrize(("outer_radius", "height"), SIZES)
-def test_slopes(shell, outer_radius, height):
+def test_mass_per_height_agrees_with_differences(shell, outer_radius, height):
     up, down = (shell.mass(outer_radius, height + step) for step in (1e-6, -1e-6))
     slope = shell.mass_per_height(outer_radius, height)
     assert slope == pytest.approx((up - down) / 2e-6, rel=1e-6)
@@ -93,11 +93,11 @@ def test_masses_are_those_of_the_moments(outer_radius, height):
     assert plain < housing_mass(outer_radius, height) < 1.4 * plain
     for walls in ((0.0, 0.005), (0.002, 0.009)):
         shell = Printed(0.01, NO_POSTS, *walls)
-        whole = shell.moments(outer_radius, height).mass
-        assert shell.mass(outer_radius, height) == pytest.approx(whole, rel=1e-12)
+        expected = shell.moments(outer_radius, height).mass
+        assert shell.mass(outer_radius, height) == pytest.approx(expected, rel=1e-12)
 
 
-def test_arrays_as_numbers():
+def test_arrays_and_numbers_agree():
     outer, height = np.array(SIZES).T
     masses = [housing_mass(*size) for size in SIZES]
     np.testing.assert_allclose(housing_mass(outer, height), masses, rtol=1e-15)

@@ -1,4 +1,4 @@
-"""Joints by themselves: worked figures, laws, and rings against a boundary value solver."""
+"""Joints: worked examples, laws, and rotating rings against a boundary value solver."""
 
 from dataclasses import replace
 from math import pi
@@ -42,7 +42,7 @@ WHEEL = (
 
 
 @pytest.mark.parametrize(("factor", "gap"), [(1.0, 7.4), (1.2, 10.6)])
-def test_a_tungsten_ring_opens_off_aluminium(factor, gap):
+def test_a_tungsten_ring_lifts_off_an_aluminium_disc(factor, gap):
     """Radius 33.8 over 31.0 mm at 20,160 rpm: 8.2 um against 0.87 um."""
     ring = TurningRings.of([TUNGSTEN], factor * FAST).displacement(0, 0.031)
     disc = TurningRings.of([ALUMINIUM], factor * FAST).displacement(0, 0.031)
@@ -56,7 +56,7 @@ def test_a_tungsten_ring_opens_off_aluminium(factor, gap):
 
 
 def by_boundary_values(rings, speed, gaps):
-    """Displacement and radial force of all rings at once, each over its own radii."""
+    """Displacement and radial force of all rings together, each over its own radii."""
     low = np.array([ring.inner for ring in rings])
     wide = np.array([ring.outer for ring in rings]) - low
     figures = np.array(
@@ -67,40 +67,40 @@ def by_boundary_values(rings, speed, gaps):
 
     def slopes(x, state):
         r = low[:, None] + wide[:, None] * x
-        moved, force = state[::2] * 1e-6, state[1::2] * size * 1e-3
+        displacement, force = state[::2] * 1e-6, state[1::2] * size * 1e-3
         radial = force / thick
-        strain = (1.0 - nu**2) * radial / modulus - nu * moved / r
-        hoop = modulus * moved / r + nu * radial
+        strain = (1.0 - nu**2) * radial / modulus - nu * displacement / r
+        hoop = modulus * displacement / r + nu * radial
         change = thick * (hoop - radial) / r - thick * density * speed**2 * r
-        found = np.empty_like(state)
-        found[::2] = wide[:, None] * strain * 1e6
-        found[1::2] = wide[:, None] * change / (size * 1e-3)
-        return found
+        derivative = np.empty_like(state)
+        derivative[::2] = wide[:, None] * strain * 1e6
+        derivative[1::2] = wide[:, None] * change / (size * 1e-3)
+        return derivative
 
     def ends(left, right):
-        missing = [left[1], right[-1]]
+        residuals = [left[1], right[-1]]
         for k, gap in enumerate(gaps):
-            missing.append(left[2 * k + 2] - right[2 * k] - gap * 1e6)
-            missing.append(left[2 * k + 3] - right[2 * k + 1])
-        return np.array(missing)
+            residuals.append(left[2 * k + 2] - right[2 * k] - gap * 1e6)
+            residuals.append(left[2 * k + 3] - right[2 * k + 1])
+        return np.array(residuals)
 
     x = np.linspace(0.0, 1.0, 60)
-    found = solve_bvp(
+    solution = solve_bvp(
         slopes, ends, x, np.zeros((2 * len(rings), x.size)), tol=1e-8, max_nodes=50_000
     )
-    assert found.success
-    return found.sol
+    assert solution.success
+    return solution.sol
 
 
-def test_ligaments_are_what_holes_leave_of_a_line_and_of_a_radius():
-    """UG-53: p = 60 mm on six of a circle of 60 mm, d = 24 mm; of 50 mm along a radius."""
+def test_ligament_efficiencies_by_hand():
+    """UG-53: d = 24 mm, six holes at p = 60 mm on a circle of 60 mm; 50 mm along a radius."""
     web = Ring(0.035, 0.085, 1e-3, *STEEL)
     between, beside = ligament_efficiencies(web, 6, 0.06, 0.012)
     assert (between, beside) == (pytest.approx(0.6), pytest.approx(0.52))
 
 
-def test_small_holes_have_the_stress_of_a_strip_with_a_hole_and_larger_ones_more():
-    """Three times what the web has there, as a small hole in a sheet that is pulled one way."""
+def test_small_holes_have_a_stress_concentration_of_three_and_larger_ones_more():
+    """As a small hole in a sheet under uniaxial tension."""
     rings = [Ring(0.002, 0.005, 5e-3, *STEEL), Ring(0.005, 0.037, 1e-3, *STEEL)]
     rings.append(Ring(0.037, 0.04, 4e-3, *STEEL))
     solid = TurningRings.of(rings, FAST)
@@ -114,8 +114,8 @@ def test_small_holes_have_the_stress_of_a_strip_with_a_hole_and_larger_ones_more
     assert peaks == sorted(peaks)
 
 
-@pytest.mark.parametrize("gaps", [(0.0, 0.0), (0.0, 30e-6)], ids=["one piece", "shrunk on"])
-def test_a_disc_of_three_thicknesses_is_as_a_boundary_value_solver_has_it(gaps):
+@pytest.mark.parametrize("gaps", [(0.0, 0.0), (0.0, 30e-6)], ids=["one piece", "shrink fit"])
+def test_a_disc_of_three_thicknesses_agrees_with_a_boundary_value_solver(gaps):
     rings = WHEEL if gaps[1] == 0.0 else (*WHEEL[:2], replace(TUNGSTEN, inner=0.0383, outer=0.0421))
     turning = TurningRings.of(rings, 1300.0, gaps)
     solution = by_boundary_values(rings, 1300.0, gaps)
@@ -125,11 +125,12 @@ def test_a_disc_of_three_thicknesses_is_as_a_boundary_value_solver_has_it(gaps):
             state = solution(x)
             assert turning.displacement(at, r) == pytest.approx(1e-6 * state[2 * at], rel=1e-4)
             radial, hoop = turning.stresses(at, r)
-            found = state[2 * at + 1] * 1e5 / ring.thickness
+            radial_of_solver = state[2 * at + 1] * 1e5 / ring.thickness
             largest = turning.peak(at)
-            assert float(radial) == pytest.approx(found, abs=1e-4 * largest)
-            of_solver = ring.elastic_modulus * state[2 * at] * 1e-6 / r + ring.poisson_ratio * found
-            assert float(hoop) == pytest.approx(of_solver, abs=1e-3 * largest)
+            assert float(radial) == pytest.approx(radial_of_solver, abs=1e-4 * largest)
+            strain = state[2 * at] * 1e-6 / r
+            hoop_of_solver = ring.elastic_modulus * strain + ring.poisson_ratio * radial_of_solver
+            assert float(hoop) == pytest.approx(hoop_of_solver, abs=1e-3 * largest)
 
 
 @given(st.floats(10.0, 3000.0), st.floats(1.01, 3.0))
@@ -139,8 +140,8 @@ def test_stresses_grow_with_the_square_of_the_speed(speed, factor):
         assert fast.peak(ring) == pytest.approx(factor**2 * slow.peak(ring), rel=1e-9)
 
 
-def test_a_hole_in_an_evenly_stretched_plate_doubles_its_stress():
-    """Around a pin hole in a full disc's middle: Kirsch, 3 - 1."""
+def test_a_hole_under_equibiaxial_tension_doubles_the_stress():
+    """Around a small hole at the centre of a full disc: Kirsch, 3 - 1."""
     turning = TurningRings.of([replace(ALUMINIUM, outer=0.04)], 1000.0)
     radial, hoop = turning.stresses(0, 1e-6)
     assert float(radial) == pytest.approx(float(hoop), rel=1e-6)
@@ -160,15 +161,15 @@ def test_a_hole_in_an_evenly_stretched_plate_doubles_its_stress():
 )
 def test_screws_are_tightened_to_three_quarters_of_their_proof_load(thread, area, strength, proof):
     """Stress areas and proof loads of ISO 898-1, tables 4 and 5, in mm^2 and N."""
-    held = screw(thread)
-    assert 1e6 * held.stress_area == pytest.approx(area, rel=2e-3)
-    assert joint_preload(held, strength) == pytest.approx(0.75 * proof, rel=7e-3)
-    assert tightening_torque(held, strength) == held.torque(joint_preload(held, strength))
+    bolt = screw(thread)
+    assert 1e6 * bolt.stress_area == pytest.approx(area, rel=2e-3)
+    assert joint_preload(bolt, strength) == pytest.approx(0.75 * proof, rel=7e-3)
+    assert tightening_torque(bolt, strength) == bolt.torque(joint_preload(bolt, strength))
     # VDI 2230 with 0.12 in thread and under the head; a tenth to a seventh below K = 0.2.
-    flank, under = held.diameter - 0.6495 * held.pitch, (held.head_diameter + held.clearance_hole)
-    lever = 0.16 * held.pitch + 0.58 * flank * 0.12 + under / 4.0 * 0.12
-    assert tightening_torque(held) == pytest.approx(joint_preload(held) * lever)
-    assert 0.85 < tightening_torque(held) / (0.2 * joint_preload(held) * held.diameter) < 0.9
+    flank, under = bolt.diameter - 0.6495 * bolt.pitch, (bolt.head_diameter + bolt.clearance_hole)
+    lever = 0.16 * bolt.pitch + 0.58 * flank * 0.12 + under / 4.0 * 0.12
+    assert tightening_torque(bolt) == pytest.approx(joint_preload(bolt) * lever)
+    assert 0.85 < tightening_torque(bolt) / (0.2 * joint_preload(bolt) * bolt.diameter) < 0.9
 
 
 def test_four_screws_of_m3_on_12_mm_carry_3_3_newton_metres():
@@ -177,26 +178,26 @@ def test_four_screws_of_m3_on_12_mm_carry_3_3_newton_metres():
     assert shear_torque(screw("M3"), 4, 0.006) == pytest.approx(44.6, abs=0.1)
 
 
-def test_stronger_screws_take_more_thread_and_load_it_as_much():
+def test_stronger_screws_need_more_thread_engagement():
     for each in CLASSES.values():
         assert each.proof / each.depth == pytest.approx(CLASSES["8.8"].proof, rel=0.03)
 
 
-def test_the_catalogue_asks_for_strong_screws_where_usual_ones_do_not_carry_the_wheel():
+def test_the_catalogue_has_strong_screws_only_where_8_8_is_not_enough():
     found = {}
     for each in motors().values():
         circle = None if each.mounting is None else each.mounting.rotor
         if circle is None or circle.screws == "8.8":
             continue
-        asked = SERVICE * each.peak_torque
+        required = SERVICE * each.peak_torque
         usual = replace(each.mounting, rotor=replace(circle, screws="8.8"))
-        assert hub_joint(usual, 0.0) < asked <= hub_joint(each.mounting, 0.0)
+        assert hub_joint(usual, 0.0) < required <= hub_joint(each.mounting, 0.0)
         found[each.name] = mount_of(each, None).screwed[0].fastening.designation
     assert found["U15 II KV80"] == "ISO 4762 M5 x 10 - 10.9"
 
 
-def test_a_shaft_carries_by_shear_on_its_surface():
-    """T = pi d L mu p d / 2: 5 mm by 5 mm under 100 MPa at 0.12."""
+def test_torque_of_a_cylinder_by_shear_on_its_surface():
+    """T = pi d L tau d / 2: 5 mm by 5 mm with 100 MPa and a friction of 0.12."""
     assert cylinder_torque(0.005, 0.005, 12e6) == pytest.approx(pi * 0.005**3 * 6e6)
     assert cylinder_torque(0.005, 0.005, 0.0) == 0.0
 
@@ -208,13 +209,13 @@ def test_a_slip_fit_of_62_mm_may_be_24_um_off_centre():
     assert slip_fit_eccentricity(0.062) == pytest.approx(24e-6, abs=1e-6)
 
 
-def test_holes_on_half_a_rim_take_what_they_add_up_to():
+def test_balancing_holes_on_half_a_rim_add_up():
     rim = WHEEL[2]
     found = correction(rim.inner, rim.outer, rim.thickness, 7850.0, chamfer=0.2e-3, ligament=1e-3)
     assert (found.hole_radius, found.depth) == pytest.approx((0.7e-3, 2.3e-3))
     assert found.mass == pytest.approx(2.0 * pi * 0.7e-3**2 * 2.3e-3 * 7850.0)
     one = found.mass * found.radius
-    # As many holes on an even half circle: 2 / pi of their sum.
+    # Holes evenly on half a circle: 2 / pi of their sum.
     count = int(pi * found.radius / 2.4e-3)
     assert found.most == pytest.approx(one * count * 2.0 / pi, rel=0.02)
     none = correction(0.0405, rim.outer, rim.thickness, 7850.0, chamfer=0.2e-3, ligament=1e-3)
@@ -223,34 +224,34 @@ def test_holes_on_half_a_rim_take_what_they_add_up_to():
 
 @pytest.mark.slow
 @given(st.floats(0.2, 10.0), st.floats(500.0, 3000.0))
-def test_a_shrink_fit_presses_wherever_it_must_hold(torque, speed):
+def test_a_shrink_fit_transmits_its_torque_at_all_temperatures_and_speeds(torque, speed):
     rings = (replace(ALUMINIUM, outer=0.031), TUNGSTEN)
     fit = shrink_fit(rings, (23.6e-6, 4.5e-6), speed, torque)
     assert fit.most > fit.least > 0.0
 
-    def carried(drawn):
-        """At its loosest the pressure times friction, cold or warm, turning or not.
+    def transmitted(nominal):
+        """Least torque by friction, cold or warm, rotating or not.
 
-        Ra 1.6 is Rz 6.4: peaks take 0.8 x 12.8 um across.
+        Ra 1.6 is Rz 6.4: smoothing of peaks reduces the diameter's interference by 0.8 x 12.8 um.
         """
-        interference = drawn - 5.12e-6
-        grown = [19.1e-6 * kelvin * 0.031 for kelvin in (-30.0, 30.0)]
+        interference = nominal - 5.12e-6
+        expansions = [19.1e-6 * kelvin * 0.031 for kelvin in (-30.0, 30.0)]
         pressures = [
             TurningRings.of(rings, at, [interference + each]).pressure(0)
-            for each in grown
+            for each in expansions
             for at in (0.0, speed)
         ]
         return 2.0 * pi * 0.031**2 * 0.0015 * min(pressures) * FRICTION
 
-    assert fit.torque == pytest.approx(carried(fit.least), rel=1e-6)
-    # Of whole micrometres across it is the least that does.
-    assert fit.torque >= (1.0 - 1e-6) * torque > carried(fit.least - 0.5e-6)
-    # Cold takes from the interference: 19.1e-6 x 30 K x 31 mm = 17.8 um.
+    assert fit.torque == pytest.approx(transmitted(fit.least), rel=1e-6)
+    # It is the least sufficient interference of the diameter in whole micrometres.
+    assert fit.torque >= (1.0 - 1e-6) * torque > transmitted(fit.least - 0.5e-6)
+    # Cold reduces the interference: 19.1e-6 x 30 K x 31 mm = 17.8 um.
     warm = shrink_fit(rings, (4.5e-6, 4.5e-6), speed, torque)
     assert fit.least - warm.least == pytest.approx(17.8e-6, abs=0.6e-6)
 
 
-def test_a_fit_of_a_rim_that_is_smoothed_still_presses_in_the_cold_at_overspeed():
+def test_a_smoothed_fit_still_has_pressure_cold_and_at_overspeed():
     """DIN 7190-1: U_w = U - 0.8 (Rz_i + Rz_a), with Rz 6.4 of both: 10.24 um across."""
     assert pytest.approx(10.24e-6) == SMOOTHING
     rings = (replace(ALUMINIUM, outer=0.031), TUNGSTEN)
@@ -260,8 +261,8 @@ def test_a_fit_of_a_rim_that_is_smoothed_still_presses_in_the_cold_at_overspeed(
     assert fit.torque >= 0.5
 
 
-def test_holes_of_a_hub_that_is_pressed_together_stress_it_twice():
-    """Around a small hole in a disc under the pressure p from all sides it is 2 p (Kirsch)."""
+def test_holes_double_the_stress_of_a_compressed_hub():
+    """Around a small hole in a disc under radial pressure p it is 2 p (Kirsch)."""
     rings = (replace(ALUMINIUM, inner=0.0, outer=0.031), TUNGSTEN)
     plain = shrink_fit(rings, (23.6e-6, 4.5e-6), 0.0, 1.0)
     holed = shrink_fit(rings, (23.6e-6, 4.5e-6), 0.0, 1.0, holes=0.012)

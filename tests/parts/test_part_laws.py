@@ -1,4 +1,4 @@
-"""Wheels, housings and feet of any size: one closed body, of the mass that the closed form says."""
+"""Wheels, housings and feet of any size: one closed body with the closed form's mass."""
 
 import numpy as np
 import pytest
@@ -22,11 +22,11 @@ from ocs_design.parts.wheel import Rim, Web, Wheel, wheel_parts
 from ocs_design.robot.mass import physical_defect
 
 SECTIONS = 48
-few = settings(max_examples=25, deadline=None)
+few_examples = settings(max_examples=25, deadline=None)
 
 
 def assert_one_body(part: Part, handles: int) -> None:
-    """`handles`: through holes, as a topologist counts them."""
+    """Check for one closed body with a genus of `handles`, its number of through holes."""
     body, exact = part_manifold(part, SECTIONS), part.mass_properties()
     assert len(body.decompose()) == 1
     assert body.genus() == handles
@@ -36,7 +36,7 @@ def assert_one_body(part: Part, handles: int) -> None:
 
 @st.composite
 def wheels(draw: st.DrawFn) -> Wheel:
-    """With hub and bolts, of one material or two."""
+    """Wheels with hub and bolts, of one or two materials."""
     outer = draw(st.floats(0.012, 0.2))
     rim = Rim(
         outer * draw(st.floats(0.3, 0.95)),
@@ -61,13 +61,13 @@ def wheels(draw: st.DrawFn) -> Wheel:
 
 @st.composite
 def housings(draw: st.DrawFn) -> Housing:
-    """From a rim of 10 mm to one of 200."""
+    """Housings for rims of 10 mm to 200 mm."""
     radius = draw(st.floats(0.01, 0.2))
     mount = MountHoles(0.003, BoltCircle(0.014, draw(st.integers(1, 6)), "M2"))
     return Housing(radius, radius * draw(st.floats(0.1, 1.0)), mount, draw(st.sampled_from(SCREWS)))
 
 
-@few
+@few_examples
 @given(wheels())
 def test_wheel(wheel):
     bolts = wheel.web.hub.bolts
@@ -79,33 +79,33 @@ def test_wheel(wheel):
 
 
 @pytest.mark.slow
-@few
+@few_examples
 @given(housings(), st.floats(0.005, 0.015))
 def test_housing_and_foot(housing, thickness):
     holes = 1 + housing.mount.screws.bolts
     drum, lid = housing_parts(housing)
-    # The threads end on the floor's ears: blind.
+    # The threads in the floor's ears are blind holes.
     assert_one_body(drum, holes)
     assert_one_body(lid, EAR_COUNT)
     assert_one_body(foot_part(Foot(housing, thickness)), holes + 2)
 
 
 @pytest.mark.slow
-@few
+@few_examples
 @given(wheels())
 def test_wheel_turns_in_its_housing(wheel):
     parts = housing_parts(Housing(wheel.rim.outer_radius, wheel.rim.height))
-    made = wheel_parts(wheel)
-    polygons = 2.0 * wheel.rim.outer_radius * (2.0 * np.pi / SECTIONS) ** 2 / 8.0
-    gap = turning_clearance(made, parts, 2.0 * CLEARANCE, SECTIONS)
-    assert gap == pytest.approx(CLEARANCE, abs=polygons)
-    assert all(overlap_volume(one, other, SECTIONS) == 0.0 for one in made for other in parts)
+    pieces = wheel_parts(wheel)
+    polygon_error = 2.0 * wheel.rim.outer_radius * (2.0 * np.pi / SECTIONS) ** 2 / 8.0
+    gap = turning_clearance(pieces, parts, 2.0 * CLEARANCE, SECTIONS)
+    assert gap == pytest.approx(CLEARANCE, abs=polygon_error)
+    assert all(overlap_volume(one, other, SECTIONS) == 0.0 for one in pieces for other in parts)
 
 
 PRINTED = *housing_parts(HOUSING), foot_part(FOOT), cage_part(CAGE)
 
 
 @pytest.mark.parametrize("part", PRINTED, ids=lambda part: part.name)
-def test_printed_parts_have_the_stated_wall(part):
-    """But for a hundredth, which polygons of 128 sections cost."""
+def test_printed_parts_have_the_least_wall(part):
+    """To 1 %, the error of polygons with 128 sections."""
     assert thinnest_wall(part) >= 0.99 * (WALL if part.name in {"foot", "cage"} else PANEL)

@@ -15,7 +15,7 @@ OFFSETS = st.tuples(st.floats(-3.0, 3.0), st.floats(-3.0, 3.0))
 
 
 def assert_same(found, expected, tolerance=1e-12):
-    """Area, first and second moments, which grow with the size of what they are of."""
+    """Compare area, first and second moments, with tolerances that scale with the size."""
     size = 1.0 + np.sqrt(np.trace(expected[2]) / expected[0])
     for power, (one, other) in enumerate(zip(found, expected, strict=True)):
         np.testing.assert_allclose(one, other, rtol=0.0, atol=tolerance * expected[0] * size**power)
@@ -34,11 +34,11 @@ def test_disc(radius, centre):
 def test_rectangle(width, height, corner):
     x, y = corner
     shape = Rectangle(x, x + width, y, y + height)
-    middle = np.array([x + width / 2.0, y + height / 2.0])
+    centre = np.array([x + width / 2.0, y + height / 2.0])
     own = np.diag([width**2, height**2]) / 12.0
     area = width * height
     for found in (as_area_moments(shape.moments), area_moments(shape.outline())):
-        assert_same(found, (area, area * middle, area * (own + np.outer(middle, middle))))
+        assert_same(found, (area, area * centre, area * (own + np.outer(centre, centre))))
 
 
 def test_half_disc():
@@ -49,9 +49,9 @@ def test_half_disc():
 
 
 @given(st.floats(1.0, 3.0), st.floats(0.1, 0.9), st.floats(0.1, 6.0), st.floats(0.0, 6.0))
-def test_slot_has_the_area_its_cutter_sweeps(radius, width, turn, start):
+def test_slot_has_the_area_that_its_cutter_sweeps(radius, width, turn, start):
     slot = ArcSlot(radius, width, start, start + turn)
-    # Pappus: width times the path of its middle, and a disc for both ends.
+    # Pappus: width times the path of its centre, and a disc for both ends.
     area = radius * turn * width + np.pi * width**2 / 4.0
     assert slot.area == pytest.approx(area)
     assert_same(as_area_moments(slot.moments), area_moments(slot.outline()), 1e-11)
@@ -91,7 +91,7 @@ def test_four_posts(radius, bore, half_angle):
         lambda r: Eared(r, r + 0.1, 0.05),
     ],
 )
-def test_arrays_as_numbers(shape):
+def test_arrays_and_numbers_agree(shape):
     radii = np.array([0.5, 0.7, 2.0])
     found, areas = shape(radii).moments, shape(radii).area
     for index, radius in enumerate(radii.tolist()):
@@ -104,11 +104,11 @@ def test_arrays_as_numbers(shape):
 
 @pytest.mark.parametrize("count", [1, 2, 3, 8])
 @given(st.floats(-3.0, 3.0), OFFSETS)
-def test_a_ring_is_the_sum_of_its_members(count, first, centre):
+def test_a_circular_pattern_is_the_sum_of_its_members(count, first, centre):
     angles = first + 2.0 * np.pi * np.arange(count) / count
     outline = Disc(0.3, centre).outline()
-    each = [area_moments(outline.turned(angle)) for angle in angles]
-    expected = [sum(figures) for figures in zip(*each, strict=True)]
+    members = [area_moments(outline.turned(angle)) for angle in angles]
+    expected = [sum(figures) for figures in zip(*members, strict=True)]
     assert_same(as_area_moments(Disc(0.3, centre).moments.around(count, first)), expected)
 
 
@@ -133,8 +133,8 @@ BULGES = st.one_of(st.just(0.0), st.floats(0.01, 0.45), st.floats(-0.45, -0.01))
 
 @pytest.mark.slow
 @given(st.lists(BULGES, min_size=5, max_size=5), OFFSETS)
-def test_arcs_both_ways_agree_with_a_dense_polygon(bulges, offset):
-    # Corners of a pentagon of radius 3; arcs of these bulges do not cross each other.
+def test_convex_and_concave_arcs_agree_with_a_dense_polygon(bulges, offset):
+    # Corners of a pentagon of radius 3, whose arcs do not cross with these bulges.
     angles = 2.0 * np.pi * np.arange(5) / 5
     corners = 3.0 * np.column_stack([np.cos(angles), np.sin(angles)]) + offset
     outline = Outline(corners, np.array(bulges))

@@ -24,15 +24,15 @@ from ocs_design.robot.mass import MassProperties, physical_defect
 LENGTHS = st.floats(0.01, 1.0)
 
 
-def weighed(solid, density):
-    """Mass properties of a solid of that density [kg/m^3]."""
+def mass_properties_of(solid, density):
+    """Mass properties of a solid of this density [kg/m^3]."""
     return Part("solid", density, (solid,)).mass_properties()
 
 
 @given(LENGTHS, LENGTHS, LENGTHS)
-def test_hollow_cylinder_is_the_rim_of_the_sizing(inner, wall, height):
+def test_hollow_cylinder_agrees_with_the_formulas_of_the_rim(inner, wall, height):
     outer = inner + wall
-    body = weighed(hollow_cylinder(inner, outer, -height / 2.0, height / 2.0), 7860.0)
+    body = mass_properties_of(hollow_cylinder(inner, outer, -height / 2.0, height / 2.0), 7860.0)
     axial = cylinder_spin_inertia(inner, outer, height, 7860.0)
     across = cylinder_transverse_inertia(inner, outer, height, 7860.0)
     mass = cylinder_mass(inner, outer, height, 7860.0)
@@ -45,7 +45,7 @@ def test_cone():
     # Mass rho pi r^2 h / 3, centre of mass h/4 above the base, 3/10 m r^2 about its axis and
     # 3/80 m (4 r^2 + h^2) across it.
     r, h = 0.3, 0.8
-    cone = weighed(revolved([(0.0, 0.0), (r, 0.0), (0.0, h)]), 1000.0)
+    cone = mass_properties_of(revolved([(0.0, 0.0), (r, 0.0), (0.0, h)]), 1000.0)
     mass = 1000.0 * np.pi * r**2 * h / 3.0
     across = 3.0 / 80.0 * mass * (4.0 * r**2 + h**2)
     inertia = np.diag([across, across, 0.3 * mass * r**2])
@@ -60,24 +60,24 @@ def test_box_turned_and_moved():
     )
     inertia = mass / 12.0 * np.diag([b**2 + c**2, a**2 + c**2, a**2 + b**2])
     expected = MassProperties(mass, position, rotation @ inertia @ rotation.T)
-    assert_same_mass_properties(weighed(box, 1000.0), expected)
+    assert_same_mass_properties(mass_properties_of(box, 1000.0), expected)
 
 
 @pytest.mark.slow
 @given(st.lists(st.tuples(st.floats(0.0, 1.0), st.floats(-1.0, 1.0)), min_size=3, max_size=3))
-def test_any_triangle_turned_weighs_what_its_mesh_does(corners):
+def test_a_revolved_triangle_has_the_mass_of_its_mesh(corners):
     profile = np.array(corners)
     (a, b), (c, d) = profile[1] - profile[0], profile[2] - profile[0]
     area = (a * d - b * c) / 2.0
     assume(abs(area) > 1e-3)
     solid = Revolution(profile if area > 0.0 else profile[::-1])
-    body = weighed(solid, 1.0)
+    body = mass_properties_of(solid, 1.0)
     assert physical_defect(body) is None
     # Pappus: area times the path of its centroid.
     assert body.mass == pytest.approx(2.0 * np.pi * profile[:, 0].mean() * abs(area), rel=1e-12)
     mesh = solid_mesh(solid)
-    found = trimesh.Trimesh(mesh.vertices, mesh.triangles, process=False).volume
-    assert found == pytest.approx(body.mass, rel=1e-9)
+    volume = trimesh.Trimesh(mesh.vertices, mesh.triangles, process=False).volume
+    assert volume == pytest.approx(body.mass, rel=1e-9)
 
 
 def test_repeated_corners_are_left_out():

@@ -1,4 +1,4 @@
-"""The wheel's closed form against sums by hand, and what cannot be made."""
+"""The wheel as one or two pieces, its chamfers, and wheels that cannot be made."""
 
 from dataclasses import replace
 
@@ -12,14 +12,14 @@ from ocs_design.parts.solids import total
 from ocs_design.parts.wheel import Rim, Wheel, wheel_parts
 
 
-def test_one_material_is_one_piece_of_the_same_mass():
+def test_one_and_two_pieces_have_the_same_mass():
     rim = replace(ONE_PIECE.rim, material="other aluminium")
     pieces = wheel_parts(Wheel(rim, ONE_PIECE.web))
-    whole = wheel_parts(ONE_PIECE)
-    assert [part.name for part in whole] == ["wheel"]
+    one_piece = wheel_parts(ONE_PIECE)
+    assert [part.name for part in one_piece] == ["wheel"]
     assert [part.name for part in pieces] == ["rim", "hub"]
-    assert total(pieces).mass == pytest.approx(total(whole).mass, rel=1e-14)
-    np.testing.assert_allclose(total(pieces).inertia, total(whole).inertia, atol=1e-18)
+    assert total(pieces).mass == pytest.approx(total(one_piece).mass, rel=1e-14)
+    np.testing.assert_allclose(total(pieces).inertia, total(one_piece).inertia, atol=1e-18)
 
 
 def test_chamfer_leaves_half_of_each_face():
@@ -55,7 +55,7 @@ def web(**sizes):
         ((RIM, replace(WEB, holes=HoleRing(6, 0.016, 0.0055))), "inner edge"),
     ],
 )
-def test_what_cannot_be_made_says_why(wheel, clause):
+def test_wheels_that_cannot_be_made_are_explained(wheel, clause):
     with pytest.raises(PartError, match=clause) as caught:
         Wheel(*wheel)
     assert caught.value.hint
