@@ -15,11 +15,14 @@ from ocs_design.device.solids import drive_solids, foot_of, motor_mount, shaft_c
 from ocs_design.export.device_parts import foot_holes, places, trunk_holes
 from ocs_design.export.drawing.wheel import BROKEN_EDGE, lost_by_breaking
 from ocs_design.parts.bell import BELL_SHARE
+from ocs_design.parts.cage import cage_part
 from ocs_design.parts.carrier_plate import ALUMINIUM
 from ocs_design.parts.foot import Foot, foot_part
+from ocs_design.parts.housing import housing_parts
 from ocs_design.parts.joints import GRADE
 from ocs_design.parts.motor_mount import motor_front
 from ocs_design.parts.printed import PETG, SHOCK, TRUNK_SCREW
+from ocs_design.parts.solids import Part
 from ocs_design.robot.manual import assumed_trunk, origin_by_hand
 from ocs_design.robot.robot import Robot, RobotFormat
 from ocs_design.robot.surface import trunk_surface
@@ -174,12 +177,11 @@ def _overlap_notes(device: Device, foot: Foot) -> Iterator[str]:
 
 def _landing_notes(device: Device, foot: Foot) -> Iterator[str]:
     """Notes on prints and screws too weak for a landing, and on speeds at which parts resonate."""
-    module, modes = device.module_mass, resonances_of(device)
-    hold, own = foot_hold(device), foot_part(foot).mass_properties().mass
+    module, modes, hold = device.module_mass, resonances_of(device), foot_hold(device)
     bears = hold.prints_bear
+    heavier = _milled_heavier(foot_part(foot))
     if bears < SHOCK:
         stronger = ALUMINIUM.strength / PETG.strength
-        heavier = own * (ALUMINIUM.density / PETG.density - 1.0)
         stiffer = foot_frequency(device, ALUMINIUM.modulus) / foot_frequency(device)
         sway = "".join(
             f", and let it sway at {mode.frequency:.0f} Hz" for mode in modes if mode.name == "foot"
@@ -189,21 +191,25 @@ def _landing_notes(device: Device, foot: Foot) -> Iterator[str]:
             f"{module:.2g} kg along the wheel's axis, not of {SHOCK / STANDARD_GRAVITY:.0f} "
             f"g{sway}: where landings are harder, mill them from 6061-T6 to the same file, at "
             f"least {stronger:.0f} times as strong, {stiffer:.2g} times as high a frequency and "
-            f"{1e3 * heavier:.0f} g heavier each"
+            f"{heavier} heavier each"
         )
     if hold.heads_bear < SHOCK:
         yield (
-            f"mill the feet from 6061-T6 to the same file: at {SHOCK / STANDARD_GRAVITY:.0f} g the "
+            f"mill the feet from 6061-T6 to the same file, {heavier} heavier each, which the "
+            f"device's mass does not count: at {SHOCK / STANDARD_GRAVITY:.0f} g the "
             f"heads of their screws press with {1e-6 * hold.pull / hold.area:.0f} MPa even on "
             f"washers, and PETG yields at {1e-6 * PETG.strength:.0f}"
         )
     for each in joints_of(device):
         if each.name == FLOOR_SHOCK and each.capacity is not None and each.capacity < SHOCK:
+            drum, _ = housing_parts(foot.housing)
+            cage = motor_mount(device).cage
+            parts = (drum,) if cage is None else (cage_part(cage), drum)
             yield (
                 "printed in PETG, cage and drum hold motor and wheel up to "
                 f"{each.capacity / STANDARD_GRAVITY:.2g} g along the wheel's axis, not "
                 f"{SHOCK / STANDARD_GRAVITY:.0f}: where landings are harder, mill both from "
-                "6061-T6 to the same files"
+                f"6061-T6 to the same files, {' and '.join(map(_milled_heavier, parts))} heavier"
             )
     for mode in modes:
         if mode.acceleration > STANDARD_GRAVITY:
@@ -213,6 +219,12 @@ def _landing_notes(device: Device, foot: Foot) -> Iterator[str]:
                 f"{mode.acceleration / STANDARD_GRAVITY:.1f} times its weight "
                 f"({mode.frequency:.0f} Hz, unbalance of grade G {GRADE:g}, damping {DAMPING:.0%})"
             )
+
+
+def _milled_heavier(printed: Part[float]) -> str:
+    """Mass that a printed part gains if it is milled from 6061-T6."""
+    own = printed.mass_properties().mass
+    return f"{1e3 * own * (ALUMINIUM.density / PETG.density - 1.0):.0f} g"
 
 
 def _overlap(parts: str, beyond: float) -> str:

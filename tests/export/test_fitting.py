@@ -15,7 +15,11 @@ from ocs_design.device.bodies import wheel_placement
 from ocs_design.device.device import Device, Web
 from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.device.solids import foot_of
+from ocs_design.export.assembly.content import Assembly
+from ocs_design.export.assembly.steps import module_steps
 from ocs_design.export.assembly_notes import device_notes, drive_notes
+from ocs_design.export.device_parts import printed_parts
+from ocs_design.export.meshes import part_manifold
 from ocs_design.export.visuals import still_visuals
 from ocs_design.parts.foot import foot_shock, plate_thickness
 from ocs_design.parts.rim import Hub, RimCuts
@@ -73,6 +77,23 @@ def test_cage_and_drum_bear_the_shock_or_a_note_says_so(mass, noted):
     thick = replace(DEVICES["caged"], foot_plate=0.03)
     heavy = replace(thick, motor=replace(thick.motor, mass=mass, length=0.08))
     assert ("cage and drum hold motor and wheel up to 16 g" in notes(heavy)) == noted
+
+
+def test_parts_that_must_be_milled_are_not_printed_and_their_mass_is_stated():
+    """Aluminium of 2.71 g/cm^3 in place of PETG of 1.27 in the volume of the exported meshes."""
+    thick = replace(DEVICES["caged"], foot_plate=0.03)
+    heavy = replace(thick, motor=replace(thick.motor, mass=8.0, length=0.08))
+    heavy = replace(heavy, carrier=replace(heavy.carrier, mass=20.0))
+    text = notes(heavy)
+    volumes = {part.name: part_manifold(part).volume() for part in printed_parts(heavy)}
+    foot, cage, drum = (
+        f"{1e3 * 1440.0 * volumes[name]:.0f} g" for name in ("foot", "cage", "drum")
+    )
+    assert f"mill the feet from 6061-T6 to the same file, {foot} heavier each" in text
+    assert f"mill both from 6061-T6 to the same files, {cage} and {drum} heavier" in text
+    for device, milled in ((heavy, True), (thick, False)):
+        (step,) = (each for each in module_steps(Assembly("dog", device)) if "Print drum" in each)
+        assert ("The foot is milled instead" in step) == milled
 
 
 ROTOR = BoltCircle(0.012, 3, "M2")

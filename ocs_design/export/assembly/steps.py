@@ -42,6 +42,7 @@ from ocs_design.parts.printed import (
     GUARD_GAP,
     LID_SCREW,
     PANEL,
+    SHOCK,
     TRUNK_SCREW,
     WASHER_HEIGHT,
 )
@@ -147,10 +148,13 @@ def module_steps(assembly: Assembly) -> Iterator[str]:
         supports = "no supports"
         if sqrt(2.0) * hole > FREE_SPAN:
             supports += f" except in the hole of {2e3 * hole:.0f} mm of the standing foot"
+        milled = ""
+        if foot_hold(device).heads_bear < SHOCK:
+            milled = " The foot is milled instead (see Before you start)."
         yield (
             f"Print drum, lid{', foot and cage' if caged else ' and foot'} in PETG, oriented as "
             "in cad/housing.3mf, one of each, arranged on your bed by the slicer: 0.2 mm layers, "
-            f"100 % infill (strength and masses assume solid parts), {supports}. Tap the "
+            f"100 % infill (strength and masses assume solid parts), {supports}.{milled} Tap the "
             "ears of "
             f"{'drum and cage' if caged else 'the drum'} {LID_SCREW.name}."
         )
