@@ -13,7 +13,7 @@ from ocs_design.device.joints import FLOOR_SHOCK, foot_hold, joints_of
 from ocs_design.device.resonances import DAMPING, foot_frequency, resonances_of
 from ocs_design.device.solids import drive_solids, foot_of, motor_mount, shaft_cut
 from ocs_design.export.device_parts import foot_holes, places, trunk_holes
-from ocs_design.export.drawing.wheel import BROKEN_EDGE, lost_by_breaking
+from ocs_design.export.drawing.wheel import BROKEN_EDGE, broken_edge_losses
 from ocs_design.parts.bell import BELL_SHARE
 from ocs_design.parts.cage import cage_part
 from ocs_design.parts.carrier_plate import ALUMINIUM
@@ -39,7 +39,7 @@ def device_notes(device: Device) -> tuple[str, ...]:
     if device.flywheel.cuts.chamfer > 0.0:
         return notes
     # The wheel was sized with sharp edges.
-    _, share = lost_by_breaking(device.flywheel.shape)
+    _, share = broken_edge_losses(device.flywheel.shape)
     edge = format_quantity(BROKEN_EDGE, "mm")
     return (
         f"with its edges broken {edge} a wheel has {share:.2%} less inertia than was designed",

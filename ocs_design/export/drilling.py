@@ -26,8 +26,8 @@ from ocs_design.export.drawing.sheet import (
     Point,
     Polyline,
     arrow,
-    cross,
-    level_dimension,
+    centre_lines,
+    horizontal_dimension,
     outline,
     rectangle,
     wrapped,
@@ -161,18 +161,21 @@ def drilling_of(subject: Subject) -> Drilling | None:
         held = zip(plate.screw_lengths, plate.gaps, strict=True)
         reach = [length - plate.clamped - gap for length, gap in held]
     radius = MILLIMETRES * thread.tapping_drill / 2.0
-    marks: list[Item] = [*cross((0.0, 0.0), 3.0 * CROSS), arrow((3.0 * CROSS, 0.0), (1.0, 0.0))]
+    marks: list[Item] = [
+        *centre_lines((0.0, 0.0), 3.0 * CROSS),
+        arrow((3.0 * CROSS, 0.0), (1.0, 0.0)),
+    ]
     marks.append(Lettering((3.0 * CROSS, -1.0), "forward" if mast is None else "up", 2.5))
     for hole in holes:
         words = Lettering(
             (hole[0] + radius, hole[1] - radius - 1.0), f"{hole[0]:.1f}, {hole[1]:.1f}", 1.8
         )
-        marks += [Circle(hole, radius), *cross(hole, radius + CROSS), words]
+        marks += [Circle(hole, radius), *centre_lines(hole, radius + CROSS), words]
     items: list[Item] = []
     for module in (each for each in device.modules if each.name in standing and mast is None):
         (middle,) = _millimetres([(float(module.position[0]), float(module.position[1]))])
         base = MILLIMETRES * foot.base_radius
-        items += [Circle(middle, base, THIN), *cross(middle, CROSS)]
+        items += [Circle(middle, base, THIN), *centre_lines(middle, CROSS)]
         items.append(
             Lettering((middle[0] + base / 2.0, middle[1]), part_name("foot", module.name), 2.5)
         )
@@ -286,7 +289,7 @@ def _words(drilling: Drilling, number: int, count: int) -> Iterator[Item]:
     for line, text in enumerate(words):
         yield Lettering((left + CHECK + 5.0, bottom + (line + 1) * LEADING), text, 2.2)
     y = bottom + 3.0 * LEADING
-    yield from level_dimension("", left=left, right=left + CHECK, y=y, text_x=left + CHECK)
+    yield from horizontal_dimension("", left=left, right=left + CHECK, y=y, text_x=left + CHECK)
     yield Lettering((left + CHECK / 2.0 - 5.0, y - 1.0), f"{CHECK:.0f} mm")
     for x in (left, left + CHECK):
         yield Line((x, y - 3.0), (x, y + 3.0))

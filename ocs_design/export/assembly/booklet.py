@@ -33,7 +33,7 @@ from ocs_design.export.drawing.sheet import (
     Line,
     Polyline,
     Scale,
-    fitted,
+    truncated,
     wrapped,
 )
 from ocs_design.export.drawing.title_block import TOOL, device_hash, frame
@@ -161,7 +161,7 @@ def assembly_pages(assembly: Assembly) -> list[list[Item]]:
     bodies = [first, *_text_pages(assembly, chapters(assembly))]
     identity = f"design {device_hash(assembly.device)} · {TOOL}"
     verdict = ": NOT buildable as it stands" if assembly.refused else ""
-    title, y = fitted(f"Assembly, {assembly.name}{verdict}", 150.0, _TITLE), TOP + 7.0
+    title, y = truncated(f"Assembly, {assembly.name}{verdict}", 150.0, _TITLE), TOP + 7.0
     pages: list[list[Item]] = []
     for number, body in enumerate(bodies, start=1):
         sheet = f"{identity} · sheet {number} / {len(bodies)}"

@@ -31,17 +31,17 @@ from ocs_design.export.drawing.sheet import (
     Polyline,
     Scale,
     arrow,
-    cross,
-    extension,
+    centre_lines,
+    extension_line,
     fits_inside,
+    horizontal_dimension,
     largest_scale,
-    level_dimension,
     outline,
     rectangle,
-    upright_dimension,
+    vertical_dimension,
 )
-from ocs_design.export.drawing.title_block import Entries, device_hash, whole_sheet
-from ocs_design.export.drawing.wheel import plain
+from ocs_design.export.drawing.title_block import Entries, complete_sheet, device_hash
+from ocs_design.export.drawing.wheel import in_mm
 from ocs_design.parts.carrier_plate import CarrierPlate, Mast, mast_part, plate_part
 from ocs_design.parts.dog_bone import directions
 from ocs_design.parts.outline import flat_outline
@@ -59,10 +59,10 @@ _MAST_VIEW: Box = (LEFT + 34.0, TOP + 8.0, RIGHT - 60.0, 118.0)
 _ROW = 5.0
 """Height of a row of the table of holes [mm]."""
 
-_WINDOW = 5.0
+_NAME_INSIDE = 5.0
 """Radius on the sheet above which a hole's name is placed inside it [mm]."""
 
-_NEAR = 0.25
+_CLEARANCE = 0.25
 """Clearance of hole names from lines [mm]."""
 
 _BETWEEN = 40.0
@@ -77,29 +77,29 @@ def plate_sheets(device: Device, robot: str, refused: str = "") -> list[list[Ite
     plate = device.plate
     if plate is None:
         return []
-    alike: dict[object, list[int]] = {}
-    for index, each in enumerate(plate.each):
-        alike.setdefault((_rounded(each.feet), _rounded(each.trunk), each.sleeves), []).append(
-            index
-        )
-    count = len(alike) + (plate.mast is not None)
+    equal_plates: dict[object, list[int]] = {}
+    for index, one_plate in enumerate(plate.each):
+        equal_plates.setdefault(
+            (_rounded(one_plate.feet), _rounded(one_plate.trunk), one_plate.sleeves), []
+        ).append(index)
+    count = len(equal_plates) + (plate.mast is not None)
     entries_of = partial(
         Entries, robot=robot, material=plate.material, identity=device_hash(device)
     )
     sheets = []
-    for number, indices in enumerate(alike.values(), start=1):
-        one = plate.each[indices[0]]
-        scale, view = _top_view(one)
+    for number, indices in enumerate(equal_plates.values(), start=1):
+        sample = plate.each[indices[0]]
+        scale, view = _top_view(sample)
         entries = entries_of(
             title=_title(plate, indices),
             scale=scale,
-            mass=plate_part(one).mass(),
-            figure=("Thickness", f"{plain(plate.thickness)} (EN 485-4)"),
+            mass=plate_part(sample).mass(),
+            figure=("Thickness", f"{in_mm(plate.thickness)} (EN 485-4)"),
             texture="as rolled, edges Ra 6.3 (ISO 21920)",
             sheet=f"{number} / {count}",
         )
         middles = [plate.each[index].position[:2] for index in indices]
-        sheets.append(whole_sheet(view, _plate_notes(one, middles), entries, refused))
+        sheets.append(complete_sheet(view, _plate_notes(sample, middles), entries, refused))
     mast = plate.mast
     if mast is not None:
         scale, view = _mast_views(plate, mast)
@@ -107,11 +107,11 @@ def plate_sheets(device: Device, robot: str, refused: str = "") -> list[list[Ite
             title="Mast behind the trunk",
             scale=scale,
             mass=mast_part(plate, mast).mass(),
-            figure=("Square tube", f"{plain(mast.side)} x {plain(mast.wall)} (EN 755-8)"),
+            figure=("Square tube", f"{in_mm(mast.side)} x {in_mm(mast.wall)} (EN 755-8)"),
             texture="as drawn (extruded)",
             sheet=f"{count} / {count}",
         )
-        sheets.append(whole_sheet(view, _mast_notes(plate, mast), entries, refused))
+        sheets.append(complete_sheet(view, _mast_notes(plate, mast), entries, refused))
     return sheets
 
 
@@ -146,8 +146,8 @@ def _holes(plate: CarrierPlate) -> list[Hole]:
     windows = (plate.across * directions(plate.arms)).tolist() if window > 0.0 else ()
     kinds = (
         (plate.foot_thread, screw(plate.foot_thread).tapping_drill, plate.feet),
-        (f"Ø{plain(clearance)}", clearance, plate.trunk),
-        (f"Ø{plain(window)}", window, windows),
+        (f"Ø{in_mm(clearance)}", clearance, plate.trunk),
+        (f"Ø{in_mm(window)}", window, windows),
     )
     return [
         Hole(f"{letter}{number}", size, diameter, (x, y))
@@ -163,8 +163,8 @@ def _top_view(plate: CarrierPlate) -> tuple[Scale, list[Item]]:
     corners = flat_outline(plate.shape.outline())
     low, high = corners.min(axis=0), corners.max(axis=0)
     left, top, right, bottom = _VIEW
-    tall, wide, thick = plate.sizes
-    scale = largest_scale((wide, right - left), (tall + thick, bottom - top - 20.0))
+    length, width, thickness = plate.sizes
+    scale = largest_scale((width, right - left), (length + thickness, bottom - top - 20.0))
     offset = scale(float(low[1] + high[1])) / 2.0
     middle = (left + right) / 2.0 + offset, top + 8.0 + scale(float(high[0]))
 
@@ -172,24 +172,24 @@ def _top_view(plate: CarrierPlate) -> tuple[Scale, list[Item]]:
         """Point of the plate on the sheet: forward is up, left is left."""
         return middle[0] - scale(y), middle[1] - scale(x)
 
-    ring = [place(float(x), float(y)) for x, y in corners]
-    items: list[Item] = [Polyline((*ring, ring[0]), OUTLINE)]
+    corners_on_sheet = [place(float(x), float(y)) for x, y in corners]
+    items: list[Item] = [Polyline((*corners_on_sheet, corners_on_sheet[0]), OUTLINE)]
     holes = [(hole.name, place(*hole.at), scale(hole.diameter) / 2.0) for hole in _holes(plate)]
-    turn = np.linspace(0.0, 2.0 * np.pi, 721)
+    angles = np.linspace(0.0, 2.0 * np.pi, 721)
     circles = [
-        np.array(at) + radius * np.column_stack([np.cos(turn), np.sin(turn)])
+        np.array(at) + radius * np.column_stack([np.cos(angles), np.sin(angles)])
         for _, at, radius in holes
     ]
     # Points along all lines, dense enough that no line crosses a word unnoticed [mm].
-    ends = np.array([*ring, ring[0]])
-    steps = np.maximum(1, np.ceil(np.hypot(*np.diff(ends, axis=0).T) / _NEAR)).astype(int)
+    ends = np.array([*corners_on_sheet, corners_on_sheet[0]])
+    steps = np.maximum(1, np.ceil(np.hypot(*np.diff(ends, axis=0).T) / _CLEARANCE)).astype(int)
     sides = zip(ends, ends[1:], steps.tolist(), strict=False)
     edge = [np.linspace(start, end, count + 1) for start, end, count in sides]
     lines = np.concatenate([*edge, *circles])
     for name, at, radius in holes:
-        items += [Circle(at, radius), *cross(at, radius + 2.0)]
-        items.append(_named(name, at, radius, lines))
-    edge_left, edge_right = (place(0.0, float(each))[0] for each in (high[1], low[1]))
+        items += [Circle(at, radius), *centre_lines(at, radius + 2.0)]
+        items.append(_hole_name(name, at, radius, lines))
+    edge_left, edge_right = (place(0.0, float(y))[0] for y in (high[1], low[1]))
     upper, lower = place(float(high[0]), 0.0)[1], place(float(low[0]), 0.0)[1]
     items += [
         Line((edge_left - 3.0, middle[1]), (edge_right + 3.0, middle[1]), CENTRE),
@@ -198,35 +198,38 @@ def _top_view(plate: CarrierPlate) -> tuple[Scale, list[Item]]:
         Lettering((middle[0] + 2.0, upper - 2.0), "x, forward", 1.8),
         arrow((edge_left - 3.0, middle[1]), (-1.0, 0.0)),
         Lettering((edge_left - 4.0, middle[1] - 2.0), "y, left", 1.8, Anchor.END),
-        *_tall(plain(tall), edge_right, (upper, lower)),
+        *_height_dimension(in_mm(length), edge_right, (upper, lower)),
     ]
     # The edge seen from the front, below the plate in first-angle projection.
-    above = lower + 14.0
-    below = above + scale(thick)
-    items += outline(rectangle(edge_left, above, edge_right, below))
-    items += _tall(plain(thick), edge_right, (above, below))
-    y = below + 7.0
-    items += [extension(x, below, y) for x in (edge_left, edge_right)]
-    items += level_dimension(plain(wide), left=edge_left, right=edge_right, y=y)
+    edge_top = lower + 14.0
+    edge_bottom = edge_top + scale(thickness)
+    items += outline(rectangle(edge_left, edge_top, edge_right, edge_bottom))
+    items += _height_dimension(in_mm(thickness), edge_right, (edge_top, edge_bottom))
+    y = edge_bottom + 7.0
+    items += [extension_line(x, edge_bottom, y) for x in (edge_left, edge_right)]
+    items += horizontal_dimension(in_mm(width), left=edge_left, right=edge_right, y=y)
     return scale, [*items, *_hole_table(plate)]
 
 
-def _named(name: str, at: Point, radius: float, lines: FloatArray) -> Lettering:
+def _hole_name(name: str, at: Point, radius: float, lines: FloatArray) -> Lettering:
     """Name of a hole, placed beside it clear of lines, or inside a large hole.
 
     Args:
         name, at, radius: name, position and radius of the hole [mm].
         lines: points of all lines [mm], shape (n, 2).
     """
-    aside, high = (1.0 if radius > _WINDOW else radius + 0.8), 1.8
-    found = Lettering((at[0] + aside, at[1] - aside), name, high)
+    offset, height = (1.0 if radius > _NAME_INSIDE else radius + 0.8), 1.8
+    label = Lettering((at[0] + offset, at[1] - offset), name, height)
     for right, up in ((1.0, 1.0), (-1.0, 1.0), (1.0, -1.0), (-1.0, -1.0)):
-        x = at[0] + aside if right > 0.0 else at[0] - aside - found.width
-        y = at[1] - aside if up > 0.0 else at[1] + aside + high
-        low, top = np.array([x, y - high]) - _NEAR, np.array([x + found.width, y]) + _NEAR
+        x = at[0] + offset if right > 0.0 else at[0] - offset - label.width
+        y = at[1] - offset if up > 0.0 else at[1] + offset + height
+        low, top = (
+            np.array([x, y - height]) - _CLEARANCE,
+            np.array([x + label.width, y]) + _CLEARANCE,
+        )
         if not ((lines >= low) & (lines <= top)).all(axis=1).any():
-            return replace(found, place=(x, y))
-    return found
+            return replace(label, place=(x, y))
+    return label
 
 
 def _hole_table(plate: CarrierPlate) -> Iterator[Item]:
@@ -252,103 +255,113 @@ def _plate_notes(plate: CarrierPlate, middles: list[tuple[float, float]]) -> Ite
         "feet's screws; places of holes ±0.1 from the axes, x forward and y to the left."
     )
     crosses = " and ".join(
-        f"({plain(round(x, 5) + 0.0)}, {plain(round(y, 5) + 0.0)})" for x, y in middles
+        f"({in_mm(round(x, 5) + 0.0)}, {in_mm(round(y, 5) + 0.0)})" for x, y in middles
     )
     yield f"On the robot the axes cross at x, y = {crosses} of the base frame."
-    ends = f"Ends R~{plain(plate.radius)} around their windows' middles"
+    ends = f"Ends R~{in_mm(plate.radius)} around their windows' middles"
     if plate.window == 0.0:
-        ends = f"Ends R~{plain(plate.radius)}, {plain(plate.across)} from the middle of the plate"
+        ends = f"Ends R~{in_mm(plate.radius)}, {in_mm(plate.across)} from the middle of the plate"
     arms = "neck" if plate.arms == 2 else f"{plate.arms} arms, evenly around,"
     shape = plate.shape
     yield (
-        f"{ends}; {arms} {plain(2.0 * plate.neck)} wide, R~{plain(shape.fillet)} where they meet."
+        f"{ends}; {arms} {in_mm(2.0 * plate.neck)} wide, R~{in_mm(shape.fillet)} where they meet."
         if plate.neck < plate.radius
         else f"{ends}, sides straight between them."
     )
     yield "All edges broken 0.2. Milled, or cut by water jet and drilled: flat within 0.2."
     if plate.mast is None and any(plate.sleeves):
-        lengths = ", ".join(dict.fromkeys(plain(each) for each in plate.sleeves if each > 0.0))
+        lengths = ", ".join(
+            dict.fromkeys(in_mm(length) for length in plate.sleeves if length > 0.0)
+        )
         yield (
-            f"Sleeves Ø{plain(2.0 * plate.sleeve_radius)} × {plain(plate.sleeve_wall)} of the same "
+            f"Sleeves Ø{in_mm(2.0 * plate.sleeve_radius)} × {in_mm(plate.sleeve_wall)} of the same "
             f"material go under it, {lengths} long: cad/assembly.pdf says which goes where."
         )
 
 
 def _mast_views(plate: CarrierPlate, mast: Mast) -> tuple[Scale, list[Item]]:
     """The mast seen from the left, with forward to the left, and seen from behind."""
-    half, end = mast.side / 2.0, -plate.neck
-    long, high = mast.face + mast.off - end, mast.high - mast.low
+    half_side, arm_end = mast.side / 2.0, -plate.neck
+    length, height = mast.face + mast.off - arm_end, mast.high - mast.low
     left, top, right, bottom = _MAST_VIEW
-    scale = largest_scale((long + mast.side, right - left - _BETWEEN), (high, bottom - top - 12.0))
+    scale = largest_scale(
+        (length + mast.side, right - left - _BETWEEN), (height, bottom - top - 12.0)
+    )
     start = left + scale(mast.face + mast.off)
-    upper = top + 4.0
+    top_y = top + 4.0
 
     def side(x: float, z: float) -> Point:
         """Point of the view from the left: forward is on the left."""
-        return start - scale(x), upper + scale(mast.high - z)
+        return start - scale(x), top_y + scale(mast.high - z)
 
-    behind = left + scale(long) + _BETWEEN + scale(half)
+    behind = left + scale(length) + _BETWEEN + scale(half_side)
 
     def back(y: float, z: float) -> Point:
         """Point of the view from behind: left is left."""
-        return behind - scale(y), upper + scale(mast.high - z)
+        return behind - scale(y), top_y + scale(mast.high - z)
 
-    items = _box(side(mast.face, mast.high), side(mast.back, mast.low))
-    items += _box(back(half, mast.high), back(-half, mast.low))
+    items = _rectangle_between(side(mast.face, mast.high), side(mast.back, mast.low))
+    items += _rectangle_between(back(half_side, mast.high), back(-half_side, mast.low))
     for level in plate.heights:
-        items += _box(side(mast.back, level), side(end, level - mast.side))
-        items += _box(back(half, level), back(-half, level - mast.side))
-    low, up = plate.block
+        items += _rectangle_between(side(mast.back, level), side(arm_end, level - mast.side))
+        items += _rectangle_between(back(half_side, level), back(-half_side, level - mast.side))
+    low, block_high = plate.block
     if plate.relief is not None:
         # Its outline is the foremost contour.
         outermost = zip(plate.relief.heights.max(axis=0).tolist(), plate.relief.y, strict=True)
         form = [side(mast.face + thick, float(z)) for thick, z in outermost]
-        under, over = side(mast.face, low), side(mast.face, up)
-        items.append(Polyline((under, *form, over, under), OUTLINE))
+        lower, upper = side(mast.face, low), side(mast.face, block_high)
+        items.append(Polyline((lower, *form, upper, lower), OUTLINE))
     elif mast.spacer > 0.0:
-        items += _box(side(mast.face + mast.spacer, up), side(mast.face, low))
+        items += _rectangle_between(side(mast.face + mast.spacer, block_high), side(mast.face, low))
     radius = scale(plate.screw.clearance_hole) / 2.0
     for y, z in plate.trunk:
-        items += [Circle(back(y, z), radius), *cross(back(y, z), radius + 2.0)]
+        items += [Circle(back(y, z), radius), *centre_lines(back(y, z), radius + 2.0)]
     for z in sorted({z for _, z in plate.trunk}):
-        (near, along), (far, _) = side(mast.face + mast.off, z), side(mast.back, z)
-        items.append(Line((near - 3.0, along), (far + 3.0, along), CENTRE))
+        (front_x, level_y), (rear_x, _) = side(mast.face + mast.off, z), side(mast.back, z)
+        items.append(Line((front_x - 3.0, level_y), (rear_x + 3.0, level_y), CENTRE))
     # Heights of ends and holes above the underside of the lowest plate.
-    beside = back(-half, 0.0)[0]
+    labels_x = back(-half_side, 0.0)[0]
     marks = {mast.high, mast.low, *plate.heights, *(z for _, z in plate.trunk)}
-    shown: list[float] = []
+    label_rows: list[float] = []
     for z in sorted(marks, reverse=True):
         at = back(0.0, z)[1]
-        row = max(at, shown[-1] + 4.0) if shown else at
-        shown.append(row)
+        row = max(at, label_rows[-1] + 4.0) if label_rows else at
+        label_rows.append(row)
         items += [
-            Line((beside + 1.0, at), (beside + 8.0, at)),
-            Line((beside + 8.0, at), (beside + 11.0, row)),
-            Lettering((beside + 12.0, row + 1.0), f"z = {1e3 * z:.2f}", 2.5),
+            Line((labels_x + 1.0, at), (labels_x + 8.0, at)),
+            Line((labels_x + 8.0, at), (labels_x + 11.0, row)),
+            Lettering((labels_x + 12.0, row + 1.0), f"z = {1e3 * z:.2f}", 2.5),
         ]
     y = back(0.0, mast.low)[1] + 8.0
-    front, rear = side(mast.face, mast.low)[0], side(end, 0.0)[0]
-    items += [extension(front, back(0.0, mast.low)[1], y)]
-    items += [extension(rear, side(0.0, min(plate.heights) - mast.side)[1], y)]
-    items += level_dimension(plain(mast.face - end), left=front, right=rear, y=y)
-    across = sorted({round(y, 9) for y, _ in plate.trunk})
-    items += [extension(back(each, 0.0)[0], back(0.0, mast.low)[1], y) for each in across]
-    ends = back(across[-1], 0.0)[0], back(across[0], 0.0)[0]
-    items += level_dimension(
-        plain(across[-1] - across[0]), left=ends[0], right=ends[1], y=y, text_x=ends[1] + 8.0
+    front, rear = side(mast.face, mast.low)[0], side(arm_end, 0.0)[0]
+    items += [extension_line(front, back(0.0, mast.low)[1], y)]
+    items += [extension_line(rear, side(0.0, min(plate.heights) - mast.side)[1], y)]
+    items += horizontal_dimension(in_mm(mast.face - arm_end), left=front, right=rear, y=y)
+    hole_columns = sorted({round(y, 9) for y, _ in plate.trunk})
+    items += [
+        extension_line(back(column, 0.0)[0], back(0.0, mast.low)[1], y) for column in hole_columns
+    ]
+    ends = back(hole_columns[-1], 0.0)[0], back(hole_columns[0], 0.0)[0]
+    items += horizontal_dimension(
+        in_mm(hole_columns[-1] - hole_columns[0]),
+        left=ends[0],
+        right=ends[1],
+        y=y,
+        text_x=ends[1] + 8.0,
     )
     items.append(
-        Lettering(((front + rear) / 2.0, upper - 4.0), "from the left", 2.5, Anchor.MIDDLE)
+        Lettering(((front + rear) / 2.0, top_y - 4.0), "from the left", 2.5, Anchor.MIDDLE)
     )
-    items.append(Lettering((behind, upper - 4.0), "from behind", 2.5, Anchor.MIDDLE))
+    items.append(Lettering((behind, top_y - 4.0), "from behind", 2.5, Anchor.MIDDLE))
     return scale, items
 
 
 def _mast_notes(plate: CarrierPlate, mast: Mast) -> Iterator[str]:
     arms = "one arm" if len(plate.heights) == 1 else f"{len(plate.heights)} arms"
     yield (
-        f"An upright of {plain(mast.high - mast.low)} and {arms} of "
-        f"{plain(mast.back + plate.neck)}, welded all around with filler 5356 (EN~ISO~18273). "
+        f"An upright of {in_mm(mast.high - mast.low)} and {arms} of "
+        f"{in_mm(mast.back + plate.neck)}, welded all around with filler 5356 (EN~ISO~18273). "
         "Heights z are from the underside of the lowest plate."
     )
     yield (
@@ -356,21 +369,21 @@ def _mast_notes(plate: CarrierPlate, mast: Mast) -> Iterator[str]:
         "above the arm's, and is welded on along both sides."
     )
     yield (
-        f"Holes Ø{plain(plate.screw.clearance_hole)} through both walls of the upright, ±0.1; in "
-        f"each, between the walls, a sleeve Ø{plain(2.0 * plate.sleeve_radius)} × "
-        f"{plain(plate.sleeve_wall)}, {plain(mast.bore)} long."
+        f"Holes Ø{in_mm(plate.screw.clearance_hole)} through both walls of the upright, ±0.1; in "
+        f"each, between the walls, a sleeve Ø{in_mm(2.0 * plate.sleeve_radius)} × "
+        f"{in_mm(plate.sleeve_wall)}, {in_mm(mast.bore)} long."
     )
     low, high = plate.block
     if mast.formed:
-        thin, thick = plain(min(map(min, mast.formed))), plain(mast.off)
+        thin, thick = in_mm(min(map(min, mast.formed))), in_mm(mast.off)
         yield (
-            f"A block of {plain(mast.side)} × {plain(high - low)}, {thin} to {thick} thick, milled "
+            f"A block of {in_mm(mast.side)} × {in_mm(high - low)}, {thin} to {thick} thick, milled "
             "to cad/block.stl or block.step, its front shaped to the trunk, is welded before "
             f"the upright from z = {1e3 * low:.2f} up, and drilled with it."
         )
     elif mast.spacer > 0.0:
         yield (
-            f"A block of {plain(mast.spacer)} × {plain(mast.side)} × {plain(high - low)} is welded "
+            f"A block of {in_mm(mast.spacer)} × {in_mm(mast.side)} × {in_mm(high - low)} is welded "
             "before the upright, around the holes, and drilled with it."
         )
     yield (
@@ -379,19 +392,19 @@ def _mast_notes(plate: CarrierPlate, mast: Mast) -> Iterator[str]:
     )
 
 
-def _box(corner: Point, other: Point) -> list[Item]:
+def _rectangle_between(corner: Point, other: Point) -> list[Item]:
     (x0, y0), (x1, y1) = corner, other
     return outline(rectangle(min(x0, x1), min(y0, y1), max(x0, x1), max(y0, y1)))
 
 
-def _tall(label: str, edge: float, ends: tuple[float, float]) -> Iterator[Item]:
+def _height_dimension(label: str, outline_x: float, ends: tuple[float, float]) -> Iterator[Item]:
     """Height dimension to the right of an outline: upper and lower end [mm]."""
     upper, lower = ends
-    x = edge + 9.0
-    yield from (Line((edge + 0.75, y), (x + 1.5, y)) for y in ends)
+    x = outline_x + 9.0
+    yield from (Line((outline_x + 0.75, y), (x + 1.5, y)) for y in ends)
     if fits_inside(label, lower - upper):
         middle, half = (upper + lower) / 2.0, (lower - upper) / 2.0
-        yield from upright_dimension(label, x=x, middle=middle, half=half, outline_x=x)
+        yield from vertical_dimension(label, x=x, middle=middle, half=half, outline_x=x)
         return
     yield from (
         Line((x, upper - 2.0 * ARROW), (x, lower + 2.0 * ARROW)),

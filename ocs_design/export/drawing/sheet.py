@@ -68,7 +68,7 @@ class Anchor(StrEnum):
     END = "end"
 
 
-_ANCHOR_PART = {Anchor.START: 0.0, Anchor.MIDDLE: 0.5, Anchor.END: 1.0}
+_ANCHOR_FRACTION = {Anchor.START: 0.0, Anchor.MIDDLE: 0.5, Anchor.END: 1.0}
 
 
 @dataclass(frozen=True)
@@ -140,7 +140,7 @@ class Lettering:
     def start(self) -> Point:
         """Start of its first letter on the baseline."""
         x, y = self.place
-        back = _ANCHOR_PART[self.anchor] * self.width
+        back = _ANCHOR_FRACTION[self.anchor] * self.width
         return (x, y + back) if self.upright else (x - back, y)
 
 
@@ -181,7 +181,7 @@ def largest_scale(*lengths: tuple[float, float], standard: bool = True) -> Scale
     enlarged = [Scale(step * 10**power, 1) for power in (2, 1, 0) for step in reversed(steps)]
     reduced = [Scale(1, step * 10**power) for power in range(7) for step in steps][1:]
     scales = [*enlarged, *reduced]
-    fitting = (each for each in scales if all(each(length) <= room for length, room in lengths))
+    fitting = (scale for scale in scales if all(scale(length) <= room for length, room in lengths))
     return next(fitting, scales[-1])
 
 
@@ -196,7 +196,7 @@ def rectangle(left: float, top: float, right: float, bottom: float) -> tuple[Poi
     return (left, top), (right, top), (right, bottom), (left, bottom)
 
 
-def cross(at: Point, half: float) -> list[Item]:
+def centre_lines(at: Point, half: float) -> list[Item]:
     """Centre lines of a hole with this half length [mm], which cross in dashes (ISO 128-2)."""
     x, y = at
     ends = (x + half, y), (x - half, y), (x, y + half), (x, y - half)
@@ -216,8 +216,8 @@ def hatching(
         [(_DIAGONAL * x - side * y, side * x + _DIAGONAL * y) for x, y in ring]
         for ring in (corners, *others)
     ]
-    across = [v for ring in rings for _, v in ring]
-    first, last = math.ceil(min(across) / SPACING), math.floor(max(across) / SPACING)
+    levels = [v for ring in rings for _, v in ring]
+    first, last = math.ceil(min(levels) / SPACING), math.floor(max(levels) / SPACING)
     lines: list[Item] = []
     for v in (SPACING * row for row in range(first, last + 1)):
         # Segments of a horizontal line inside the polygons, by the even-odd rule.
@@ -243,7 +243,7 @@ def printable(text: str) -> str:
     return re.sub(r"[\x00-\x1f\x7f]", "?", text).encode(ENCODING, "replace").decode(ENCODING)
 
 
-def fitted(text: str, width: float, height: float) -> str:
+def truncated(text: str, width: float, height: float) -> str:
     """Text truncated to a width [mm], with an ellipsis if it does not fit."""
     text = printable(text)
     if Lettering((0.0, 0.0), text, height).width <= width:
@@ -261,7 +261,7 @@ def wrapped(text: str, width: float, height: float) -> list[str]:
         if lines and Lettering((0.0, 0.0), longer, height).width <= width:
             lines[-1] = longer
         else:
-            lines.append(fitted(word, width, height))
+            lines.append(truncated(word, width, height))
     return lines
 
 
@@ -271,7 +271,7 @@ ARROW = 3.0
 OVERHANG = 1.5
 """Length of extension lines beyond the dimension line, twice their gap to the outline [mm]."""
 
-RAISE = 0.9
+TEXT_RAISE = 0.9
 """Distance of a text above its line [mm]."""
 
 LEADING = 4.4
@@ -294,7 +294,7 @@ def fits_inside(label: str, span: float) -> bool:
     return Lettering((0.0, 0.0), label).width + 2.0 <= span and span >= 3.0 * ARROW
 
 
-def upright_dimension(
+def vertical_dimension(
     label: str, *, x: float, middle: float, half: float, outline_x: float
 ) -> list[Item]:
     """Vertical dimension beside an outline, with its text turned between the arrows.
@@ -306,18 +306,18 @@ def upright_dimension(
         outline_x: x where the extension lines leave the outline.
     """
     top, bottom = middle - half, middle + half
-    beyond, close = x - OVERHANG, outline_x - OVERHANG / 2.0
+    line_end, line_start = x - OVERHANG, outline_x - OVERHANG / 2.0
     return [
-        Line((close, top), (beyond, top)),
-        Line((close, bottom), (beyond, bottom)),
+        Line((line_start, top), (line_end, top)),
+        Line((line_start, bottom), (line_end, bottom)),
         Line((x, top), (x, bottom)),
         arrow((x, top), (0.0, -1.0)),
         arrow((x, bottom), (0.0, 1.0)),
-        Lettering((x - RAISE, middle), label, anchor=Anchor.MIDDLE, upright=True),
+        Lettering((x - TEXT_RAISE, middle), label, anchor=Anchor.MIDDLE, upright=True),
     ]
 
 
-def level_dimension(
+def horizontal_dimension(
     label: str, *, left: float, right: float, y: float, text_x: float | None = None
 ) -> list[Item]:
     """Horizontal dimension with its text above its middle, or to its right, starting at `text_x`.
@@ -325,13 +325,14 @@ def level_dimension(
     In the latter case the arrows are outside if there is no room between them.
     """
     if text_x is None:
-        outside, end = False, right
-        text = Lettering(((left + right) / 2.0, y - RAISE), label, anchor=Anchor.MIDDLE)
+        arrows_outside, end = False, right
+        text = Lettering(((left + right) / 2.0, y - TEXT_RAISE), label, anchor=Anchor.MIDDLE)
     else:
-        outside, text = right - left < 3.0 * ARROW, Lettering((text_x, y - RAISE), label)
+        arrows_outside = right - left < 3.0 * ARROW
+        text = Lettering((text_x, y - TEXT_RAISE), label)
         end = text_x + text.width
-    side = -1.0 if outside else 1.0
-    start = left - 2.0 * ARROW if outside else left
+    side = -1.0 if arrows_outside else 1.0
+    start = left - 2.0 * ARROW if arrows_outside else left
     return [
         Line((start, y), (end, y)),
         arrow((left, y), (-side, 0.0)),
@@ -340,10 +341,10 @@ def level_dimension(
     ]
 
 
-def extension(x: float, start: float, end: float) -> Line:
+def extension_line(x: float, start: float, end: float) -> Line:
     """Vertical extension line from an outline at the y `start` to a dimension line at `end`."""
-    way = math.copysign(1.0, end - start)
-    return Line((x, start + way * OVERHANG / 2.0), (x, end + way * OVERHANG))
+    sign = math.copysign(1.0, end - start)
+    return Line((x, start + sign * OVERHANG / 2.0), (x, end + sign * OVERHANG))
 
 
 def leader(lines: Sequence[str], center: Point, radius: float, shelf: Point) -> list[Item]:
@@ -353,7 +354,7 @@ def leader(lines: Sequence[str], center: Point, radius: float, shelf: Point) -> 
     u, v = (cx - x) / distance, (cy - y) / distance
     tip = (cx - radius * u, cy - radius * v)
     texts = [
-        Lettering((x + 1.0, y - RAISE + row * LEADING), line) for row, line in enumerate(lines)
+        Lettering((x + 1.0, y - TEXT_RAISE + row * LEADING), line) for row, line in enumerate(lines)
     ]
     end = x + 2.0 + max(text.width for text in texts)
     return [Line(tip, shelf), Line(shelf, (end, y)), arrow(tip, (u, v)), *texts]
@@ -364,10 +365,10 @@ def viewing_arrow(*, x: float, edge: float, down: bool) -> list[Item]:
 
     It leaves the outline at the y `edge`, upward or `down`.
     """
-    way = 1.0 if down else -1.0
-    y = edge + 7.0 * way
+    sign = 1.0 if down else -1.0
+    y = edge + 7.0 * sign
     return [
-        Line((x, edge + 3.5 * way), (x, edge + 9.0 * way), OUTLINE),
+        Line((x, edge + 3.5 * sign), (x, edge + 9.0 * sign), OUTLINE),
         Line((x, y), (x + 10.0, y), OUTLINE),
         arrow((x, y), (-1.0, 0.0)),
         # Leaders come in from the right.

@@ -25,9 +25,9 @@ from ocs_design.export.drawing.sheet import (
     Lettering,
     Line,
     Scale,
-    fitted,
     outline,
     rectangle,
+    truncated,
     wrapped,
 )
 
@@ -40,16 +40,16 @@ BLOCK_LEFT, BLOCK_TOP = RIGHT - BLOCK_WIDTH, BOTTOM - ROWS * ROW_HEIGHT
 NOTES_LEFT, NOTES_TOP = MARGIN_LEFT + 3.0, 145.0
 """Position of the notes' first line [mm]."""
 
-NOTE, SMALL_NOTE = 2.5, 1.8
+NOTE_HEIGHT, SMALL_NOTE_HEIGHT = 2.5, 1.8
 """Heights of the notes' lettering, usual and if there are too many notes [mm] (ISO 3098)."""
 
-TIGHTEST = 1.35
+TIGHTEST_LEADING = 1.35
 """Line spacing, relative to the height of capitals, at which brackets almost touch."""
 
 NUMBER_WIDTH = 5.0
 """Width of a note's number before its text [mm]."""
 
-_MOST_WORDS = 420
+_MOST_REFUSAL_TEXT = 420
 """Maximum length of the note on why the device cannot be built: three lines across the sheet."""
 
 TOOL = f"ocs-design {__version__}"
@@ -76,12 +76,12 @@ def device_hash(device: Device) -> str:
 def frame() -> list[Item]:
     """Frame around the drawing, with a mark at the middle of each side."""
     left, top, right, bottom = FRAME_BOX
-    across, down = WIDTH / 2.0, HEIGHT / 2.0
+    middle_x, middle_y = WIDTH / 2.0, HEIGHT / 2.0
     marks = [
-        ((across, 0.0), (across, MARGIN)),
-        ((across, HEIGHT), (across, HEIGHT - MARGIN)),
-        ((0.0, down), (MARGIN_LEFT, down)),
-        ((WIDTH, down), (WIDTH - MARGIN, down)),
+        ((middle_x, 0.0), (middle_x, MARGIN)),
+        ((middle_x, HEIGHT), (middle_x, HEIGHT - MARGIN)),
+        ((0.0, middle_y), (MARGIN_LEFT, middle_y)),
+        ((WIDTH, middle_y), (WIDTH - MARGIN, middle_y)),
     ]
     return [
         *outline(rectangle(left, top, right, bottom), FRAME),
@@ -110,7 +110,7 @@ class Entries:
     sheet: str = "1 / 1"
 
 
-def whole_sheet(
+def complete_sheet(
     views: Iterable[Item],
     notes: Iterable[str],
     entries: Entries,
@@ -125,15 +125,15 @@ def whole_sheet(
     """
     items, sentences = [*frame(), *views], [*notes]
     if refused:
-        words = "NOT buildable as it stands: make nothing from this sheet, note 1 says why"
-        items.append(Lettering((RIGHT - 4.0, TOP + 4.1), words, 3.0, Anchor.END))
-        if len(refused) > _MOST_WORDS:
-            points = refused[:_MOST_WORDS].rpartition(". ")[0]
+        warning = "NOT buildable as it stands: make nothing from this sheet, note 1 says why"
+        items.append(Lettering((RIGHT - 4.0, TOP + 4.1), warning, 3.0, Anchor.END))
+        if len(refused) > _MOST_REFUSAL_TEXT:
+            points = refused[:_MOST_REFUSAL_TEXT].rpartition(". ")[0]
             refused = f"{points}. cad/assembly.pdf has all open points."
         sentences.insert(0, refused)
     # Notes above the title block and the list of parts are as wide as the sheet.
-    block = min([BLOCK_TOP, *(part.start[1] for part in parts if isinstance(part, Line))])
-    return [*items, *_numbered(sentences, block), *parts, *_title_block(entries)]
+    blocks_top = min([BLOCK_TOP, *(part.start[1] for part in parts if isinstance(part, Line))])
+    return [*items, *_numbered(sentences, blocks_top), *parts, *_title_block(entries)]
 
 
 def _title_block(entries: Entries) -> list[Item]:
@@ -172,8 +172,8 @@ def _title_block(entries: Entries) -> list[Item]:
         for width, caption, value, height in cells:
             items += outline(rectangle(left, top, left + width, top + ROW_HEIGHT), THIN)
             room = width - 3.0
-            items.append(Lettering((left + 1.5, top + 2.9), fitted(caption, room, 1.8), 1.8))
-            items.append(Lettering((left + 1.5, top + 7.5), fitted(value, room, height), height))
+            items.append(Lettering((left + 1.5, top + 2.9), truncated(caption, room, 1.8), 1.8))
+            items.append(Lettering((left + 1.5, top + 7.5), truncated(value, room, height), height))
             left += width
     # A truncated cone in first-angle projection: its side, and to the right its small end.
     x, y = BLOCK_LEFT + 167.0, BLOCK_TOP + 4.5
@@ -188,21 +188,21 @@ def _title_block(entries: Entries) -> list[Item]:
     ]
 
 
-def _numbered(sentences: Sequence[str], block: float) -> list[Item]:
+def _numbered(sentences: Sequence[str], blocks_top: float) -> list[Item]:
     """Numbered notes at the lower left, wrapped to the space; no line ends at a tilde.
 
-    Notes that end above `block`, the top of the neighbouring blocks [mm], are as wide as the sheet.
-    If they would leave the frame, the line spacing is reduced, and the lettering before lines would
-    touch.
+    Notes that end above `blocks_top`, the top of the neighbouring blocks [mm], are as wide as the
+    sheet. If they would leave the frame, the line spacing is reduced, and the lettering before
+    lines would touch.
     """
-    height, leading = NOTE, LEADING
+    height, leading = NOTE_HEIGHT, LEADING
     while True:
         items: list[Item] = []
         y, left = NOTES_TOP, NOTES_LEFT + NUMBER_WIDTH
         for number, sentence in enumerate(sentences, start=1):
             items.append(Lettering((NOTES_LEFT, y), f"{number}", height))
             lines = wrapped(sentence, RIGHT - left - 2.0, height)
-            if y + (len(lines) - 1) * leading + 2.0 > block:
+            if y + (len(lines) - 1) * leading + 2.0 > blocks_top:
                 lines = wrapped(sentence, BLOCK_LEFT - left - 2.0, height)
             for line in lines:
                 items.append(Lettering((left, y), line.replace("~", " "), height))
@@ -210,5 +210,5 @@ def _numbered(sentences: Sequence[str], block: float) -> list[Item]:
         if y - leading + 2.0 < FRAME_BOX[3]:
             return items
         leading *= 0.95
-        if height == NOTE and leading < TIGHTEST * height:
-            height, leading = SMALL_NOTE, LEADING * SMALL_NOTE / NOTE
+        if height == NOTE_HEIGHT and leading < TIGHTEST_LEADING * height:
+            height, leading = SMALL_NOTE_HEIGHT, LEADING * SMALL_NOTE_HEIGHT / NOTE_HEIGHT

@@ -18,22 +18,22 @@ from ocs_design.export.drawing.sheet import (
     Line,
     Point,
     Scale,
-    extension,
+    extension_line,
     fits_inside,
     hatching,
+    horizontal_dimension,
     largest_scale,
     leader,
-    level_dimension,
     outline,
-    upright_dimension,
+    vertical_dimension,
     viewing_arrow,
 )
 from ocs_design.export.drawing.wheel import (
     WEB_GRADE,
     diameters,
-    fitted_bore,
-    holes,
-    plain,
+    fitted_bore_label,
+    hole_label,
+    in_mm,
     toleranced,
 )
 from ocs_design.parts.joints import Grade
@@ -43,30 +43,30 @@ from ocs_design.parts.wheel import Rim, Wheel
 AXIS_Y = 82.0
 """y of the wheel's axis in both views [mm]."""
 
-TALLEST = 98.0
+MAX_VIEW_HEIGHT = 98.0
 """Largest height of a view, between its name and dimensions and the title block [mm]."""
 
-LEFT, BETWEEN, RIGHT = 33.0, 36.0, 51.0
+DIAMETER_SPACE, WIDTH_SPACE, LEADER_SPACE = 33.0, 36.0, 51.0
 """Space for the diameters, for the widths, and for the leaders [mm]."""
 
-_ROOM = WIDTH - MARGIN_LEFT - MARGIN - LEFT - BETWEEN - RIGHT
+_ROOM = WIDTH - MARGIN_LEFT - MARGIN - DIAMETER_SPACE - WIDTH_SPACE - LEADER_SPACE
 
 FIRST_COLUMN, COLUMN = 9.0, 8.0
 """Distance of the first diameter from the section's outline, and between diameters [mm]."""
 
-ABOVE = 9.0
+RIM_WIDTH_DISTANCE = 9.0
 """Distance of the rim's width from the outline below it [mm]."""
 
-CHAMFER_ASIDE, BELOW = 5.0, 7.0
+CHAMFER_ASIDE, CHAMFER_BELOW = 5.0, 7.0
 """Distance of the chamfer's leader from its edge, and from the outline above it [mm]."""
 
-NEAREST = 4.0
+MIN_AXIS_DISTANCE = 4.0
 """Smallest distance of a width's dimension line from the axis [mm]."""
 
-ASIDE, PAST_ARROWS = 4.0, 7.0
+TEXT_ASIDE, PAST_ARROWS = 4.0, 7.0
 """Distance of a width's text from the outline, and from its dimension line [mm]."""
 
-SHELF, ROW = 9.0, 7.0
+LEADER_SHELF, LEADER_ROW = 9.0, 7.0
 """Distance of the front view's leaders from its outline, and between them [mm]."""
 
 BORE_LEADERS = tuple(math.radians(angle) for angle in range(8, 42, 2))
@@ -78,10 +78,10 @@ HOLE_ROWS = (14.0, 25.0, 36.0)
 HOLE_LEADERS = (math.radians(-25.0), math.radians(-40.0), math.radians(-50.0))
 """Direction of the hole that each of these leaders points to [rad]."""
 
-NARROWEST = 1.0
+MIN_LINE_DISTANCE = 1.0
 """Smallest line distance in the front view [mm]: narrower chamfers are not drawn there."""
 
-_BEYOND = 3.0
+_CENTRE_LINE_OVERHANG = 3.0
 """Length of centre lines beyond the front view's outline [mm]."""
 
 _ABOVE, _BELOW = -1.0, 1.0
@@ -102,11 +102,12 @@ class SheetLayout:
 def lay_out(wheel: Wheel) -> SheetLayout:
     """Place both views side by side, centred in the available space."""
     diameter, width = 2.0 * wheel.rim.outer_radius, wheel.width
-    scale = largest_scale((diameter, TALLEST), (diameter + width, _ROOM))
-    across, wide = scale(diameter), scale(width)
-    start = MARGIN_LEFT + LEFT + max(0.0, _ROOM - across - wide) / 2.0
-    section = start + wide / 2.0
-    front = start + wide + BETWEEN + across / 2.0
+    scale = largest_scale((diameter, MAX_VIEW_HEIGHT), (diameter + width, _ROOM))
+    diameter_on_paper, width_on_paper = scale(diameter), scale(width)
+    spare = max(0.0, _ROOM - diameter_on_paper - width_on_paper)
+    start = MARGIN_LEFT + DIAMETER_SPACE + spare / 2.0
+    section = start + width_on_paper / 2.0
+    front = start + width_on_paper + WIDTH_SPACE + diameter_on_paper / 2.0
     return SheetLayout(scale, (section, AXIS_Y), (front, AXIS_Y))
 
 
@@ -117,20 +118,24 @@ def section_view(wheel: Wheel, layout: SheetLayout) -> list[Item]:
     items: list[Item] = []
     for side in (_ABOVE, _BELOW):
         for profile, mirrored in cut_faces(wheel, above=side == _ABOVE):
-            corners = _placed(profile, layout, side)
+            corners = _on_sheet(profile, layout, side)
             items += [*outline(corners), *hatching(corners, mirrored=mirrored)]
     items += _edges_behind(wheel, layout)
     items.append(Line((x - half - 4.0, y), (x + half + 4.0, y), CENTRE))
     for ring, width, side in _cut_rings(wheel):
         beyond = width + scale.length(2.0)
-        along = [(each, ring.circle_radius) for each in (-beyond, beyond)]
-        start, end = _placed(along, layout, side)
+        along = [(z, ring.circle_radius) for z in (-beyond, beyond)]
+        start, end = _on_sheet(along, layout, side)
         items.append(Line(start, end, CENTRE))
     # Diameters that have space for their text, side by side, the smallest next to the outline.
     left = x - half - FIRST_COLUMN
-    roomy = (each for each in diameters(wheel) if fits_inside(each[0], 2.0 * scale(each[1])))
-    for column, (label, radius, width) in enumerate(roomy):
-        items += upright_dimension(
+    dimensioned = (
+        (label, radius, width)
+        for label, radius, width in diameters(wheel)
+        if fits_inside(label, 2.0 * scale(radius))
+    )
+    for column, (label, radius, width) in enumerate(dimensioned):
+        items += vertical_dimension(
             label,
             x=left - COLUMN * column,
             middle=y,
@@ -140,33 +145,40 @@ def section_view(wheel: Wheel, layout: SheetLayout) -> list[Item]:
     # Width of the rim above the view; widths of web and hub on either side of the axis, where the
     # web is uncut: in the wider of its parts inside and outside its holes.
     label, top = toleranced(rim.height, Grade.IT11), y - edge
-    items += _width(label, rim.height, wheel, layout, y=top - ABOVE, start=top)
+    items += _width_dimension(
+        label, rim.height, wheel, layout, y=top - RIM_WIDTH_DISTANCE, start=top
+    )
     web = wheel.web
     if web is not None:
-        hub, cut = web.hub, web.holes
+        hub, holes = web.hub, web.holes
         inside, outside = hub.radius, rim.inner_radius
-        if cut is not None and 2.0 * cut.circle_radius > inside + outside:
-            outside = cut.inside
-        elif cut is not None:
-            inside = cut.reach
-        away = max(NEAREST, scale(inside + outside) / 2.0)
-        thick = toleranced(web.thickness, WEB_GRADE)
-        items += _width(thick, web.thickness, wheel, layout, y=y - away)
-        items += _width(
-            plain(hub.height), hub.height, wheel, layout, y=y + away, start=y + scale(hub.radius)
+        if holes is not None and 2.0 * holes.circle_radius > inside + outside:
+            outside = holes.inside
+        elif holes is not None:
+            inside = holes.reach
+        distance = max(MIN_AXIS_DISTANCE, scale(inside + outside) / 2.0)
+        web_width = toleranced(web.thickness, WEB_GRADE)
+        items += _width_dimension(web_width, web.thickness, wheel, layout, y=y - distance)
+        items += _width_dimension(
+            in_mm(hub.height),
+            hub.height,
+            wheel,
+            layout,
+            y=y + distance,
+            start=y + scale(hub.radius),
         )
     # The size of the rim's chamfers, below the view, if it is large enough to be written.
-    chamfer = plain(rim.chamfer)
+    chamfer = in_mm(rim.chamfer)
     if float(chamfer) > 0.0:
         aside = rim.chamfer / 2.0
         middle = (rim.height / 2.0 - aside, rim.outer_radius - aside)
-        (corner,) = _placed([middle], layout, _BELOW)
-        shelf = (corner[0] + CHAMFER_ASIDE, y + edge + BELOW)
+        (corner,) = _on_sheet([middle], layout, _BELOW)
+        shelf = (corner[0] + CHAMFER_ASIDE, y + edge + CHAMFER_BELOW)
         items += leader([f"{chamfer} × 45°"], corner, 0.0, shelf)
-    return [*items, Lettering((x, y - edge - ABOVE - 7.0), "A–A", 5.0, Anchor.MIDDLE)]
+    return [*items, Lettering((x, y - edge - RIM_WIDTH_DISTANCE - 7.0), "A–A", 5.0, Anchor.MIDDLE)]
 
 
-def _placed(profile: Profile, layout: SheetLayout, side: float) -> list[Point]:
+def _on_sheet(profile: Profile, layout: SheetLayout, side: float) -> list[Point]:
     (x, y), scale = layout.section, layout.scale
     return [(x + scale(z), y + side * scale(radius)) for z, radius in profile]
 
@@ -188,7 +200,7 @@ def _edges_behind(wheel: Wheel, layout: SheetLayout) -> Iterator[Item]:
         spans.append((width, center - ring.hole_radius, center + ring.hole_radius))
     for distance, low, high in spans:
         for z in (-distance, distance):
-            start, end = _placed([(z, low), (z, high)], layout, _BELOW)
+            start, end = _on_sheet([(z, low), (z, high)], layout, _BELOW)
             yield Line(start, end, OUTLINE)
 
 
@@ -204,7 +216,7 @@ def _cut_rings(wheel: Wheel) -> Iterator[tuple[HoleRing, float, float]]:
                 yield ring, width, side
 
 
-def _width(
+def _width_dimension(
     label: str,
     width: float,
     wheel: Wheel,
@@ -216,10 +228,12 @@ def _width(
     """One width dimension, with extension lines from `start` if the outline does not reach it."""
     x, half = layout.section[0], layout.scale(width) / 2.0
     if start is not None:
-        yield from (extension(x + side * half, start, y) for side in (-1.0, 1.0))
-    aside = layout.scale(wheel.width) / 2.0 + ASIDE if start is None or width < wheel.width else 0.0
-    text_x = x + max(half + PAST_ARROWS, aside)
-    yield from level_dimension(label, left=x - half, right=x + half, y=y, text_x=text_x)
+        yield from (extension_line(x + side * half, start, y) for side in (-1.0, 1.0))
+    text_x = x + half + PAST_ARROWS
+    if start is None or width < wheel.width:
+        # Clear of the outline.
+        text_x = max(text_x, x + layout.scale(wheel.width) / 2.0 + TEXT_ASIDE)
+    yield from horizontal_dimension(label, left=x - half, right=x + half, y=y, text_x=text_x)
 
 
 def cut_faces(wheel: Wheel, *, above: bool) -> Iterator[tuple[Profile, bool]]:
@@ -233,9 +247,9 @@ def cut_faces(wheel: Wheel, *, above: bool) -> Iterator[tuple[Profile, bool]]:
         return
     # Web and hub up to the rim's bore, in pieces where holes are cut.
     hub = web.hub
-    cuts = [ring for ring in web.rings if is_cut(ring, above=above)]
-    starts = [hub.bore_radius, *(ring.reach for ring in cuts)]
-    ends = [*(ring.inside for ring in cuts), wheel.rim.inner_radius]
+    cut_rings = [ring for ring in web.rings if is_cut(ring, above=above)]
+    starts = [hub.bore_radius, *(ring.reach for ring in cut_rings)]
+    ends = [*(ring.inside for ring in cut_rings), wheel.rim.inner_radius]
     corners = [(z, radius) for radius, z in reversed(web.corners(wheel.rim.inner_radius))]
     profiles = []
     for inside, outside in zip(starts, ends, strict=True):
@@ -288,7 +302,7 @@ def front_view(wheel: Wheel, layout: SheetLayout) -> list[Item]:
     (x, y), scale, rim, web = layout.front, layout.scale, wheel.rim, wheel.web
     edge, chamfer = scale(rim.outer_radius), rim.chamfer
     radii = [rim.outer_radius, rim.inner_radius]
-    if scale(chamfer) >= NARROWEST:
+    if scale(chamfer) >= MIN_LINE_DISTANCE:
         radii += [rim.outer_radius - chamfer, rim.inner_radius + chamfer]
     if web is not None:
         radii += [web.hub.radius, web.hub.bore_radius]
@@ -299,13 +313,15 @@ def front_view(wheel: Wheel, layout: SheetLayout) -> list[Item]:
         items.append(Circle((x, y), radius, CENTRE))
         for angle in hole_angles(ring):
             u, v = math.cos(angle), -math.sin(angle)
-            items.append(Circle(_hole(ring, angle, layout), scale(ring.hole_radius), OUTLINE))
+            items.append(
+                Circle(_hole_position(ring, angle, layout), scale(ring.hole_radius), OUTLINE)
+            )
             start = (x + (radius - mark) * u, y + (radius - mark) * v)
             items.append(Line(start, (x + (radius + mark) * u, y + (radius + mark) * v)))
     return [
         *items,
-        Line((x - edge - _BEYOND, y), (x + edge + _BEYOND, y), CENTRE),
-        Line((x, y - edge - _BEYOND), (x, y + edge + _BEYOND), CENTRE),
+        Line((x - edge - _CENTRE_LINE_OVERHANG, y), (x + edge + _CENTRE_LINE_OVERHANG, y), CENTRE),
+        Line((x, y - edge - _CENTRE_LINE_OVERHANG), (x, y + edge + _CENTRE_LINE_OVERHANG), CENTRE),
         *viewing_arrow(x=x, edge=y - edge, down=False),
         *viewing_arrow(x=x, edge=y + edge, down=True),
         *_leaders(wheel, layout),
@@ -324,7 +340,7 @@ def hole_angles(ring: HoleRing) -> list[float]:
     return [math.pi / 2.0 + 2.0 * math.pi * i / ring.count for i in range(ring.count)]
 
 
-def _hole(ring: HoleRing, angle: float, layout: SheetLayout) -> Point:
+def _hole_position(ring: HoleRing, angle: float, layout: SheetLayout) -> Point:
     (x, y), radius = layout.front, layout.scale(ring.circle_radius)
     return x + radius * math.cos(angle), y - radius * math.sin(angle)
 
@@ -333,10 +349,10 @@ def _leaders(wheel: Wheel, layout: SheetLayout) -> Iterator[Item]:
     """Leaders to circles whose dimensions do not fit in the section, and to the holes."""
     (x, y), edge = layout.front, layout.scale(wheel.rim.outer_radius)
     hub = None if wheel.web is None else wheel.web.hub
-    shelf = x + edge + SHELF
+    shelf = x + edge + LEADER_SHELF
     callouts = []
     if hub is not None and hub.bore_radius > 0.0:
-        bore = fitted_bore(hub.bore_radius)
+        bore = fitted_bore_label(hub.bore_radius)
         callouts.append((bore, layout.scale(hub.bore_radius)))
     for label, radius, _ in diameters(wheel):
         on_paper = layout.scale(radius)
@@ -346,15 +362,19 @@ def _leaders(wheel: Wheel, layout: SheetLayout) -> Iterator[Item]:
     if hub is not None and hub.bolt_ring is not None:
         # The direction farthest from all holes, so that the leader crosses none.
         bolts = hole_angles(hub.bolt_ring)
-        direction = min(BORE_LEADERS, key=lambda each: max(math.cos(each - hole) for hole in bolts))
-    first = (edge + SHELF) * math.tan(direction)
+        direction = min(
+            BORE_LEADERS, key=lambda angle: max(math.cos(angle - bolt) for bolt in bolts)
+        )
+    first = (edge + LEADER_SHELF) * math.tan(direction)
     for row, (label, radius) in enumerate(callouts):
-        yield from leader([label], layout.front, radius, (shelf, y - first - ROW * row))
+        yield from leader([label], layout.front, radius, (shelf, y - first - LEADER_ROW * row))
     depths = math.inf, math.inf, wheel.rim.cuts.hole_depth
-    for ring, depth, below, aim in zip(_rings(wheel), depths, HOLE_ROWS, HOLE_LEADERS, strict=True):
+    for ring, depth, below, target in zip(
+        _rings(wheel), depths, HOLE_ROWS, HOLE_LEADERS, strict=True
+    ):
         if ring is not None:
             angles = hole_angles(ring)
-            nearness = [math.cos(each - aim) for each in angles]
+            nearness = [math.cos(hole - target) for hole in angles]
             angle = angles[nearness.index(max(nearness))]
-            center, radius = _hole(ring, angle, layout), layout.scale(ring.hole_radius)
-            yield from leader(holes(ring, depth), center, radius, (shelf, y + below))
+            center, radius = _hole_position(ring, angle, layout), layout.scale(ring.hole_radius)
+            yield from leader(hole_label(ring, depth), center, radius, (shelf, y + below))

@@ -65,14 +65,14 @@ def plus_minus(size: float, grade: Grade) -> float:
     return 1e-5 * max(1.0, (1e5 * tolerance_width(size, grade) / 2.0 + 1e-9) // 1.0)
 
 
-def lost_by_breaking(wheel: Wheel) -> tuple[float, float]:
+def broken_edge_losses(wheel: Wheel) -> tuple[float, float]:
     """Mass that is removed by breaking the rim's sharp edges [kg], and its share of the inertia."""
     sharp, broken = (
         total(wheel_parts(Wheel(replace(wheel.rim, cuts=cuts))))
         for cuts in (NO_CUTS, RimCuts(BROKEN_EDGE))
     )
-    whole = total(wheel_parts(wheel)).inertia[2, 2]
-    return sharp.mass - broken.mass, float((sharp.inertia - broken.inertia)[2, 2] / whole)
+    wheel_inertia = total(wheel_parts(wheel)).inertia[2, 2]
+    return sharp.mass - broken.mass, float((sharp.inertia - broken.inertia)[2, 2] / wheel_inertia)
 
 
 def inside_corners(wheel: Wheel) -> tuple[float, float]:
@@ -89,15 +89,25 @@ def inside_corners(wheel: Wheel) -> tuple[float, float]:
     sides = [(web.hub.height, web.hub.radius, 1.0)]
     if not wheel.shrunk_on:
         sides.append((rim.height, rim.inner_radius, -1.0))
-    steps = [(high - web.thickness) / 2.0 for high, _, _ in sides]
+    steps = [(height - web.thickness) / 2.0 for height, _, _ in sides]
     radius = min([INSIDE_CORNER, *(step for step in steps if step > 0.0)])
-    area, middle = (1.0 - pi / 4.0) * radius**2, (10.0 - 3.0 * pi) / (12.0 - 3.0 * pi) * radius
-    rings = [at + way * middle for (_, at, way), step in zip(sides, steps, strict=True) if step > 0]
-    added = sum(2.0 * web.density * area * 2.0 * pi * at**3 for at in rings)
+    area, centroid = (1.0 - pi / 4.0) * radius**2, (10.0 - 3.0 * pi) / (12.0 - 3.0 * pi) * radius
+    rings = [
+        corner_radius + outward * centroid
+        for (_, corner_radius, outward), step in zip(sides, steps, strict=True)
+        if step > 0
+    ]
+    added = sum(2.0 * web.density * area * 2.0 * pi * corner_radius**3 for corner_radius in rings)
     return (radius if rings else 0.0), added / float(total(wheel_parts(wheel)).inertia[2, 2])
 
 
-GENERAL = ((6e-3, 0.1e-3), (30e-3, 0.2e-3), (120e-3, 0.3e-3), (400e-3, 0.5e-3), (1.0, 0.8e-3))
+GENERAL_TOLERANCES = (
+    (6e-3, 0.1e-3),
+    (30e-3, 0.2e-3),
+    (120e-3, 0.3e-3),
+    (400e-3, 0.5e-3),
+    (1.0, 0.8e-3),
+)
 """Upper limits of size and their permissible deviations, class m of ISO 2768-1 [m]; sizes above 1 m
 have the last one."""
 
@@ -105,9 +115,12 @@ WEB_GRADE = Grade.IT12
 """Grade of the web's thickness: the web yields under the tool, and has a quarter of the inertia."""
 
 
-def general(size: float) -> float:
+def general_tolerance(size: float) -> float:
     """Permissible deviation of a size without tolerance, ISO 2768-m [m]."""
-    return next((off for largest, off in GENERAL if size <= largest), GENERAL[-1][1])
+    return next(
+        (deviation for largest, deviation in GENERAL_TOLERANCES if size <= largest),
+        GENERAL_TOLERANCES[-1][1],
+    )
 
 
 def inertia_error(wheel: Wheel) -> float:
@@ -124,25 +137,27 @@ def inertia_error(wheel: Wheel) -> float:
         inner = tolerance_width(2.0 * r, Grade.IT7) / 2.0
     # A larger bore removes material from the rim and adds some to the web.
     at_bore = rho * h - (0.0 if web is None else web.density * web.thickness)
-    off = 2.0 * pi * (rho * h * R**3 * outer + abs(at_bore) * r**3 * inner)
-    off += pi * rho * (R**4 - r**4) / 2.0 * plus_minus(h, Grade.IT11)
+    error = 2.0 * pi * (rho * h * R**3 * outer + abs(at_bore) * r**3 * inner)
+    error += pi * rho * (R**4 - r**4) / 2.0 * plus_minus(h, Grade.IT11)
     if web is not None:
-        hub, ring, thick = web.hub, web.holes, web.thickness
-        disc = pi * (r**4 - hub.radius**4) / 2.0
-        if ring is not None:
-            a, c = ring.hole_radius, ring.circle_radius
-            disc -= ring.count * pi * a**2 * (c**2 + a**2 / 2.0)
-            wider = general(2.0 * a) / 2.0
-            off += web.density * thick * ring.count * 2.0 * pi * a * (c**2 + a**2) * wider
-        off += web.density * disc * plus_minus(thick, WEB_GRADE)
-        wider = general(2.0 * hub.radius) / 2.0
-        off += web.density * (hub.height - thick) * 2.0 * pi * hub.radius**3 * wider
-        whole = pi * (hub.radius**4 - hub.bore_radius**4) / 2.0
-        off += web.density * whole * general(hub.height)
-    return off / float(total(wheel_parts(wheel)).inertia[2, 2])
+        hub, holes, thickness = web.hub, web.holes, web.thickness
+        disc_moment = pi * (r**4 - hub.radius**4) / 2.0
+        if holes is not None:
+            a, c = holes.hole_radius, holes.circle_radius
+            disc_moment -= holes.count * pi * a**2 * (c**2 + a**2 / 2.0)
+            deviation = general_tolerance(2.0 * a) / 2.0
+            error += (
+                web.density * thickness * holes.count * 2.0 * pi * a * (c**2 + a**2) * deviation
+            )
+        error += web.density * disc_moment * plus_minus(thickness, WEB_GRADE)
+        deviation = general_tolerance(2.0 * hub.radius) / 2.0
+        error += web.density * (hub.height - thickness) * 2.0 * pi * hub.radius**3 * deviation
+        hub_moment = pi * (hub.radius**4 - hub.bore_radius**4) / 2.0
+        error += web.density * hub_moment * general_tolerance(hub.height)
+    return error / float(total(wheel_parts(wheel)).inertia[2, 2])
 
 
-def plain(length: float) -> str:
+def in_mm(length: float) -> str:
     """Label of a length [m] in mm with at most two decimals; the general tolerance applies."""
     return f"{1e3 * length:.2f}".rstrip("0").rstrip(".")
 
@@ -152,22 +167,22 @@ def toleranced(length: float, grade: Grade) -> str:
     return f"{1e3 * length:.2f} ±{1e3 * plus_minus(length, grade):.2f}"
 
 
-def diameter(radius: float) -> str:
+def diameter_label(radius: float) -> str:
     """Label of the diameter of a radius [m]."""
-    return f"Ø{plain(2.0 * radius)}"
+    return f"Ø{in_mm(2.0 * radius)}"
 
 
-def fitted_bore(radius: float) -> str:
+def fitted_bore_label(radius: float) -> str:
     """Label of the hub's bore with the upper and lower deviation of H7 [mm]."""
-    return f"{diameter(radius)} H7 (0/+{1e3 * tolerance_width(2.0 * radius, Grade.IT7):.3f})"
+    return f"{diameter_label(radius)} H7 (0/+{1e3 * tolerance_width(2.0 * radius, Grade.IT7):.3f})"
 
 
-def rim_diameter(wheel: Wheel) -> str:
+def rim_diameter_label(wheel: Wheel) -> str:
     """Label of the rim's outer diameter."""
     return f"Ø{toleranced(2.0 * wheel.rim.outer_radius, Grade.IT9)}"
 
 
-def bore_diameter(wheel: Wheel) -> str:
+def bore_diameter_label(wheel: Wheel) -> str:
     """Label of the rim's inner diameter; if the rim is on a separate web, with the fit."""
     if wheel.shrunk_on:
         return f"Ø{2e3 * wheel.rim.inner_radius:.2f} shrink fit"
@@ -197,18 +212,21 @@ def diameters(wheel: Wheel) -> Iterator[tuple[str, float, float]]:
     """
     if wheel.web is not None:
         hub = wheel.web.hub
-        yield diameter(hub.radius), hub.radius, hub.height
+        yield diameter_label(hub.radius), hub.radius, hub.height
     if wheel.rim.inner_radius > 0.0:
-        yield bore_diameter(wheel), wheel.rim.inner_radius, wheel.rim.height
-    yield rim_diameter(wheel), wheel.rim.outer_radius, wheel.rim.height
+        yield bore_diameter_label(wheel), wheel.rim.inner_radius, wheel.rim.height
+    yield rim_diameter_label(wheel), wheel.rim.outer_radius, wheel.rim.height
 
 
-def holes(ring: HoleRing, depth: float) -> tuple[str, ...]:
+def hole_label(ring: HoleRing, depth: float) -> tuple[str, ...]:
     """Label of a ring of holes of this depth [m], line by line; inf: through."""
-    number = "" if ring.count == 1 else f"{ring.count} × "
-    size, place = f"{number}{diameter(ring.hole_radius)}", f"on {diameter(ring.circle_radius)} ±0.1"
+    count = "" if ring.count == 1 else f"{ring.count} × "
+    size, place = (
+        f"{count}{diameter_label(ring.hole_radius)}",
+        f"on {diameter_label(ring.circle_radius)} ±0.1",
+    )
     if ring.count > 1:
         place = f"evenly {place}"
     if isinf(depth):
         return f"{size} through", place
-    return size, place, f"{plain(depth)} deep, both faces"
+    return size, place, f"{in_mm(depth)} deep, both faces"

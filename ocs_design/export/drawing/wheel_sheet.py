@@ -17,26 +17,26 @@ from ocs_design.export.drawing.sheet import (
     WIDTH,
     Item,
     Lettering,
-    fitted,
     outline,
     rectangle,
+    truncated,
 )
 from ocs_design.export.drawing.title_block import (
     BLOCK_LEFT,
     BLOCK_TOP,
     BLOCK_WIDTH,
     Entries,
+    complete_sheet,
     device_hash,
-    whole_sheet,
 )
 from ocs_design.export.drawing.views import front_view, lay_out, section_view
 from ocs_design.export.drawing.wheel import (
     BROKEN_EDGE,
     WheelDrawing,
+    broken_edge_losses,
+    in_mm,
     inertia_error,
     inside_corners,
-    lost_by_breaking,
-    plain,
     seat_limits,
 )
 from ocs_design.export.drawing.writers import pdf_of_pages, svg_text
@@ -108,7 +108,7 @@ def wheel_sheet(drawing: WheelDrawing) -> list[Item]:
     )
     views = [*section_view(wheel, layout), *front_view(wheel, layout)]
     parts = parts_list(drawing)
-    return whole_sheet(views, notes(drawing), entries, drawing.refused, parts=parts)
+    return complete_sheet(views, notes(drawing), entries, drawing.refused, parts=parts)
 
 
 def parts_list(drawing: WheelDrawing) -> list[Item]:
@@ -124,12 +124,14 @@ def parts_list(drawing: WheelDrawing) -> list[Item]:
         ("Item", "Name", "Material", "Mass"),
     )
     items: list[Item] = []
-    for place, values in enumerate(rows, start=1):
-        top = BLOCK_TOP - place * PARTS_ROW
+    for row, values in enumerate(rows, start=1):
+        top = BLOCK_TOP - row * PARTS_ROW
         for value, start, end in zip(values, _PARTS_COLUMNS, _PARTS_COLUMNS[1:], strict=False):
             left, right = BLOCK_LEFT + start, BLOCK_LEFT + end
             items += outline(rectangle(left, top, right, top + PARTS_ROW), THIN)
-            items.append(Lettering((left + 1.5, top + 4.0), fitted(value, right - left - 3.0, 2.5)))
+            items.append(
+                Lettering((left + 1.5, top + 4.0), truncated(value, right - left - 3.0, 2.5))
+            )
     return items
 
 
@@ -142,28 +144,28 @@ def notes(drawing: WheelDrawing) -> Iterator[str]:
     else:
         mass, rpm = sum(drawing.masses), drawing.speed * 30.0 / math.pi
         eccentricity = 1e6 * joints.permissible_eccentricity(drawing.speed)
-        unbalance, off = (significant(each, 3) for each in (mass * eccentricity, eccentricity))
+        unbalance, offset = (significant(value, 3) for value in (mass * eccentricity, eccentricity))
         yield (
             f"{balance} at {rpm:,.0f}~rpm: residual unbalance at most {unbalance}~g~mm "
-            f"(e~=~{off}~µm), in one plane. Done on the motor: cad/assembly.pdf."
+            f"(e~=~{offset}~µm), in one plane. Done on the motor: cad/assembly.pdf."
         )
     yield (
         f"Spin inertia within ±{_percent(inertia_error(wheel))} over all tolerances together; the "
         "motor's rotor not included."
     )
     chamfer, web = wheel.rim.chamfer, wheel.web
-    broken = f"edges without indication broken {1e3 * BROKEN_EDGE:g}"
+    broken_edges = f"edges without indication broken {1e3 * BROKEN_EDGE:g}"
     if chamfer > 0.0 and web is not None and web.hub.chamfer > 0.0:
         yield (
-            f"Edges of rim, hub and bore {plain(chamfer)}~×~45°, counted in mass and inertia; all "
+            f"Edges of rim, hub and bore {in_mm(chamfer)}~×~45°, counted in mass and inertia; all "
             "others deburred."
         )
     elif chamfer > 0.0:
-        yield f"Edges of the rim {plain(chamfer)}~×~45°; {broken}."
+        yield f"Edges of the rim {in_mm(chamfer)}~×~45°; {broken_edges}."
     else:
-        mass, share = lost_by_breaking(wheel)
-        lost = f"{1e3 * mass:.2g}~g and {_percent(share)} of the inertia"
-        yield f"{broken.capitalize()}: those of the rim are {lost}, not taken off here."
+        mass, share = broken_edge_losses(wheel)
+        losses = f"{1e3 * mass:.2g}~g and {_percent(share)} of the inertia"
+        yield f"{broken_edges.capitalize()}: those of the rim are {losses}, not taken off here."
     if drawing.yield_strength is not None:
         yield (
             f"Material with a yield strength of at least {drawing.yield_strength / 1e6:.0f}~MPa, "
@@ -171,8 +173,8 @@ def notes(drawing: WheelDrawing) -> Iterator[str]:
         )
     run_out = f"Run-out of the rim, around and on its faces, to the bore at most {RUN_OUT:g}."
     if drawing.bonded:
-        gap = plain(2.0 * GLUE_GAP)
-        size = plain(2.0 * (wheel.rim.inner_radius - GLUE_GAP))
+        gap = in_mm(2.0 * GLUE_GAP)
+        size = in_mm(2.0 * (wheel.rim.inner_radius - GLUE_GAP))
         yield (
             f"Bonded around the motor's bell: bore it {gap} wider than the bell, which is measured "
             f"first; the bore drawn is that for Ø{size}."
@@ -183,7 +185,7 @@ def notes(drawing: WheelDrawing) -> Iterator[str]:
     if web is not None:
         radius, share = inside_corners(wheel)
         if radius > 0.0:
-            yield f"Inside corners at most R~{plain(radius)} (+{_percent(share)} of inertia)."
+            yield f"Inside corners at most R~{in_mm(radius)} (+{_percent(share)} of inertia)."
         yield run_out
         if web.hub.bolts == 0 and drawing.on_shaft:
             yield "No bolt circle: bonded on the motor's shaft."
@@ -199,15 +201,15 @@ def _rim_note(drawing: WheelDrawing) -> str:
         return "Rim, web and hub turned from one bar, web and hub in the rim's middle."
     if drawing.interference is None:
         return "Rim shrunk on the web, which is not computed."
-    least, most = (f"{1e3 * each:.3f}" for each in drawing.interference)
+    least, most = (f"{1e3 * value:.3f}" for value in drawing.interference)
     return (
         f"Rim shrunk on the web, its bore {least} to {most} narrower: the list of parts has both "
         "sizes."
     )
 
 
-def _percent(part: float) -> str:
-    return f"{100.0 * part:.2g}~%"
+def _percent(fraction: float) -> str:
+    return f"{100.0 * fraction:.2g}~%"
 
 
 def draw_wheel(drawing: WheelDrawing) -> dict[str, bytes]:

@@ -45,13 +45,13 @@ def pdf_of_pages(pages: Iterable[Iterable[Item]], title: str, *, compressed: boo
         for item in items:
             match item:
                 case Line((x1, y1), (x2, y2), pen):
-                    _take(canvas, pen)
+                    _set_pen(canvas, pen)
                     canvas.line(x1, HEIGHT - y1, x2, HEIGHT - y2)
                 case Polyline(points, pen):
-                    _take(canvas, pen)
+                    _set_pen(canvas, pen)
                     canvas.drawPath(_path(canvas, points))
                 case Circle((x, y), radius, pen):
-                    _take(canvas, pen)
+                    _set_pen(canvas, pen)
                     canvas.circle(x, HEIGHT - y, radius)
                 case Area(corners, white):
                     canvas.setFillGray(1.0 if white else 0.0)
@@ -63,8 +63,8 @@ def pdf_of_pages(pages: Iterable[Iterable[Item]], title: str, *, compressed: boo
                     x, y = item.start
                     text = canvas.beginText()
                     text.setFont(FONT, item.size)
-                    turn = (0, 1, -1, 0) if item.upright else (1, 0, 0, 1)
-                    text.setTextTransform(*turn, x, HEIGHT - y)
+                    rotation = (0, 1, -1, 0) if item.upright else (1, 0, 0, 1)
+                    text.setTextTransform(*rotation, x, HEIGHT - y)
                     text.textOut(item.text)
                     canvas.drawText(text)
         canvas.showPage()
@@ -81,7 +81,7 @@ def _path(canvas: Canvas, points: Sequence[Point]) -> PDFPathObject:
     return path
 
 
-def _take(canvas: Canvas, pen: Pen) -> None:
+def _set_pen(canvas: Canvas, pen: Pen) -> None:
     canvas.setLineWidth(pen.width)
     canvas.setDash(list(pen.dashes))
 
@@ -89,41 +89,41 @@ def _take(canvas: Canvas, pen: Pen) -> None:
 def svg_text(items: Iterable[Item], title: str, box: Box) -> str:
     """SVG of a box of the sheet [mm] at actual size."""
     left, top, right, bottom = box
-    wide, tall = _num(right - left), _num(bottom - top)
+    width_mm, height_mm = _num(right - left), _num(bottom - top)
     elements = []
     for item in items:
         match item:
             case Line((x1, y1), (x2, y2), pen):
-                place = f'x1="{_num(x1)}" y1="{_num(y1)}" x2="{_num(x2)}" y2="{_num(y2)}"'
-                elements.append(f"<line {place}{_stroke(pen)}/>")
+                attributes = f'x1="{_num(x1)}" y1="{_num(y1)}" x2="{_num(x2)}" y2="{_num(y2)}"'
+                elements.append(f"<line {attributes}{_stroke(pen)}/>")
             case Polyline(corners, pen):
                 points = " ".join(f"{_num(round(x, 2))},{_num(round(y, 2))}" for x, y in corners)
                 elements.append(f'<polyline points="{points}"{_stroke(pen)}/>')
             case Circle((x, y), radius, pen):
-                place = f'cx="{_num(x)}" cy="{_num(y)}" r="{_num(radius)}"'
-                elements.append(f"<circle {place}{_stroke(pen)}/>")
+                attributes = f'cx="{_num(x)}" cy="{_num(y)}" r="{_num(radius)}"'
+                elements.append(f"<circle {attributes}{_stroke(pen)}/>")
             case Area(corners, white):
                 points = " ".join(f"{_num(x)},{_num(y)}" for x, y in corners)
                 fill = "#fff" if white else "#000"
                 elements.append(f'<polygon points="{points}" fill="{fill}" stroke="none"/>')
             case Lettering():
                 x, y = item.start
-                turn = f' transform="rotate(-90 {_num(x)} {_num(y)})"' if item.upright else ""
+                rotation = f' transform="rotate(-90 {_num(x)} {_num(y)})"' if item.upright else ""
                 # With its width given, it has the measured length in any font.
                 width = f' textLength="{_num(item.width)}" lengthAdjust="spacingAndGlyphs"'
                 elements.append(
                     f'<text x="{_num(x)}" y="{_num(y)}" font-size="{_num(item.size)}" fill="#000" '
-                    f'stroke="none"{width if item.text else ""}{turn} xml:space="preserve">'
+                    f'stroke="none"{width if item.text else ""}{rotation} xml:space="preserve">'
                     f"{escape(item.text)}</text>"
                 )
     body = "\n".join(elements)
     return (
-        f'<svg xmlns="http://www.w3.org/2000/svg" width="{wide}mm" height="{tall}mm" '
-        f'viewBox="{_num(left)} {_num(top)} {wide} {tall}" font-family="{FONTS}" fill="none" '
-        'stroke="#000">\n'
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{width_mm}mm" height="{height_mm}mm" '
+        f'viewBox="{_num(left)} {_num(top)} {width_mm} {height_mm}" font-family="{FONTS}" '
+        'fill="none" stroke="#000">\n'
         f"<title>{escape(title)}</title>\n"
-        f'<rect x="{_num(left)}" y="{_num(top)}" width="{wide}" height="{tall}" fill="#fff" '
-        'stroke="none"/>\n'
+        f'<rect x="{_num(left)}" y="{_num(top)}" width="{width_mm}" height="{height_mm}" '
+        'fill="#fff" stroke="none"/>\n'
         f"{body}\n</svg>"
     )
 

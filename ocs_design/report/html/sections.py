@@ -14,11 +14,11 @@ from ocs_design.export.assembly.booklet import chapters, pictures, piece_rows, s
 from ocs_design.export.assembly.content import Assembly
 from ocs_design.export.drawing.wheel import (
     WEB_GRADE,
-    bore_diameter,
-    fitted_bore,
+    bore_diameter_label,
+    fitted_bore_label,
+    in_mm,
     inertia_error,
-    plain,
-    rim_diameter,
+    rim_diameter_label,
     toleranced,
 )
 from ocs_design.parts.joints import Grade
@@ -82,16 +82,16 @@ def robot_section(story: Story, view: Markup) -> Markup:
 def sizes_section(design: OcsDesign) -> Markup:
     """Sizes of the wheel with their tolerances, and the margins."""
     wheel, margins = design.ocs.flywheel.shape, design.margins
-    rows = [("outer diameter, 2 R", rim_diameter(wheel))]
+    rows = [("outer diameter, 2 R", rim_diameter_label(wheel))]
     if wheel.rim.inner_radius > 0.0:
-        rows.append(("bore of the rim, 2 r", bore_diameter(wheel)))
+        rows.append(("bore of the rim, 2 r", bore_diameter_label(wheel)))
     rows.append(("height of the rim, h", toleranced(wheel.rim.height, Grade.IT11)))
     if wheel.web is not None:
         hub = wheel.web.hub
-        rows.append(("hub, diameter", f"Ø{plain(2.0 * hub.radius)}"))
-        rows.append(("hub, height", plain(hub.height)))
+        rows.append(("hub, diameter", f"Ø{in_mm(2.0 * hub.radius)}"))
+        rows.append(("hub, height", in_mm(hub.height)))
         if hub.bore_radius > 0.0:
-            rows.append(("hub, bore", fitted_bore(hub.bore_radius)))
+            rows.append(("hub, bore", fitted_bore_label(hub.bore_radius)))
         rows.append(("web, thickness", toleranced(wheel.web.thickness, WEB_GRADE)))
     inertia_note = (
         "Within all tolerances together, ISO 2768-m where none is given, the wheel's spin inertia "

@@ -20,7 +20,7 @@ from ocs_design.export.drawing.sheet import (
     largest_scale,
     printable,
 )
-from ocs_design.export.drawing.wheel import BROKEN_EDGE, lost_by_breaking, plus_minus
+from ocs_design.export.drawing.wheel import BROKEN_EDGE, broken_edge_losses, plus_minus
 from ocs_design.export.drawing.wheel_sheet import wheel_sheet
 from ocs_design.parts.joints import Grade, tolerance_width
 from ocs_design.parts.rim import NO_CUTS
@@ -119,7 +119,7 @@ def test_broken_edges_remove_four_rings_of_triangles(wheel):
     """Pappus: triangles with legs c and area c^2 / 2, with centroids c / 3 from the edges."""
     rim, c = wheel.rim, BROKEN_EDGE
     rings = np.array([rim.outer_radius - c / 3.0, rim.inner_radius + c / 3.0])
-    mass, _ = lost_by_breaking(wheel)
+    mass, _ = broken_edge_losses(wheel)
     assert mass == pytest.approx(2.0 * np.pi * c**2 * rim.density * rings.sum(), rel=1e-9)
 
 
@@ -127,14 +127,14 @@ def test_the_share_of_inertia_is_relative_to_the_whole_wheel():
     rim, c = RIM_ALONE.rim, BROKEN_EDGE
     sharp = np.pi * rim.density * rim.height / 2.0 * (rim.outer_radius**4 - rim.inner_radius**4)
     lost = 2.0 * np.pi * c**2 * rim.density * (rim.outer_radius**3 + rim.inner_radius**3)
-    _, share = lost_by_breaking(replace(RIM_ALONE, rim=replace(rim, cuts=NO_CUTS)))
+    _, share = broken_edge_losses(replace(RIM_ALONE, rim=replace(rim, cuts=NO_CUTS)))
     assert share == pytest.approx(lost / sharp, rel=0.01)
-    _, less = lost_by_breaking(TWO_PIECES)
+    _, less = broken_edge_losses(TWO_PIECES)
     assert 0.0 < less < share
 
 
 def test_the_sheet_notes_the_effect_of_broken_edges():
     sharp = replace(FLAT, wheel=replace(FLAT.wheel, rim=replace(FLAT.wheel.rim, cuts=NO_CUTS)))
     words = " ".join(item.text for item in wheel_sheet(sharp) if hasattr(item, "text"))
-    mass, share = lost_by_breaking(sharp.wheel)
+    mass, share = broken_edge_losses(sharp.wheel)
     assert f"broken 0.2: those of the rim are {1e3 * mass:.2g} g and {100 * share:.2g} %" in words
