@@ -31,7 +31,7 @@ from ocs_design.export.formats import FORMATS, USUAL_FORMATS
 from ocs_design.workflows.export import ON_DESIGN
 
 HUMAN = next(ROBOTS.rglob("human.urdf"))
-MESHED = """<robot name="r">
+WITH_A_MESH = """<robot name="r">
   <link name="base"><inertial><mass value="2"/>
     <inertia ixx="0.03" iyy="0.05" izz="0.07" ixy="0" ixz="0" iyz="0"/></inertial>
     <visual><geometry><mesh filename="package://parts/cube.stl"/></geometry></visual></link>
@@ -51,8 +51,8 @@ def test_every_file_is_that_of_size(product, folder):
     result = run("export", product.folder, "-o", "again")
     assert result.code == 0
     files = files_in("again")
-    made = {name for name in product.case.files if name.startswith(EXPORT_FOLDERS)}
-    assert set(files) == {"design.json", *made}
+    expected = {name for name in product.case.files if name.startswith(EXPORT_FOLDERS)}
+    assert set(files) == {"design.json", *expected}
     assert exported_files("again") == exported_files(product.folder)
     assert list(json.loads(files["design.json"])["files"]) == sorted(exported_files("again"))
 
@@ -75,7 +75,7 @@ def robot_with_meshes_elsewhere():
     """The design records the folder of the meshes, which the robot's file does not name."""
     (Path("hidden") / "p").mkdir(parents=True)
     trimesh.creation.box((0.1, 0.1, 0.1)).export("hidden/p/cube.stl")
-    Path("r.urdf").write_text(MESHED)
+    Path("r.urdf").write_text(WITH_A_MESH)
     return size_to_bound("r.urdf", "--rate-change", "1rad/s", "--package-path", "parts=hidden/p")
 
 
@@ -208,7 +208,7 @@ def test_the_default_folder_is_named_after_the_robot(solo12):
 @pytest.mark.slow
 def test_relative_mesh_paths_raise_one_warning(folder):
     trimesh.creation.box((0.1, 0.1, 0.1)).export("cube.stl")
-    Path("r.urdf").write_text(MESHED.replace("package://parts/", ""))
+    Path("r.urdf").write_text(WITH_A_MESH.replace("package://parts/", ""))
     source = size_to_bound("r.urdf", "--rate-change", "1rad/s")
     warnings = json.loads((source / "design.json").read_text())["robot"]["warnings"]
     assert [warning for warning in warnings if "names 1 of its meshes relative" in warning]

@@ -14,8 +14,8 @@ from pinocchio_robots import configuration, free_model
 from products import equal_rate
 
 # Given explicitly, so that the design does not depend on data that only one format has.
-ROOM = ("--r-max", "50mm", "--r-min", "5mm", "--h-max", "10mm", "--h-min", "2mm")
-ROOM = (*ROOM, "--wall-min", "2mm", "--wheel-mass-max", "250g")
+LIMITS = ("--r-max", "50mm", "--r-min", "5mm", "--h-max", "10mm", "--h-min", "2mm")
+LIMITS = (*LIMITS, "--wall-min", "2mm", "--wheel-mass-max", "250g")
 FEET = ("--legs", "FL_FOOT,FR_FOOT,HL_FOOT,HR_FOOT")
 RATE_ALONE = "[requirement]\nmaneuvers = 'none'\nrate_change = '6.3 rad/s'\n"
 
@@ -165,7 +165,7 @@ def test_by_hand_the_same_inertia_gives_the_same_design(folder, no_files):
     """
     (folder / "s.toml").write_text(RATE_ALONE)
     place = np.array([0.0, 0.055, 0.079])
-    options = ("--spec", "s.toml", *ROOM)
+    options = ("--spec", "s.toml", *LIMITS)
     expected = design(SOLO12, *options, "--position", ",".join(map(str, place)), "-o", "file")
     robot = expected["robot"]
     inertia = np.array(robot["inertia"])

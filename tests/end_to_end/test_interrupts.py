@@ -79,7 +79,7 @@ def interrupted(folder, tmp_path_factory):
     return end_at
 
 
-TWICE = (signal.SIGINT, signal.SIGINT)
+TWO_INTERRUPTS = (signal.SIGINT, signal.SIGINT)
 
 
 @pytest.mark.parametrize(
@@ -103,7 +103,7 @@ def test_an_interrupt_leaves_no_files(folder, interrupted, moment, signals):
 def test_an_interrupt_keeps_the_existing_folder(folder, interrupted):
     (folder / "solo12-ocs").mkdir()
     (folder / "solo12-ocs" / "design.json").write_bytes(b"{}")
-    code, messages = interrupted(written, *TWICE, options=("--force",))
+    code, messages = interrupted(written, *TWO_INTERRUPTS, options=("--force",))
     assert "Traceback" not in messages
     assert code == 130, messages
     assert messages.endswith("interrupted; no unfinished files are left\n")

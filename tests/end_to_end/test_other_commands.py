@@ -115,9 +115,9 @@ def test_the_demo_sizes_solo12_from_any_folder(folder, monkeypatch):
     design = read_design(folder / "design.json")
     assert design.robot.name == "solo12"
     assert all(flight.passed for flight in design.validation if flight.ocs)
-    again = failure(3, "demo")
-    assert "solo12-ocs: exists already" in again
-    assert "--force" in again
+    second = failure(3, "demo")
+    assert "solo12-ocs: exists already" in second
+    assert "--force" in second
 
 
 @pytest.mark.parametrize("open_report", [True, False])

@@ -47,7 +47,7 @@ SCHEMA = {
 PAUSE = re.compile(r"a pause of [\d.]+ s after each maneuver cools it")
 
 
-def at(document, path):
+def value_at(document, path):
     for key in filter(None, path.split(".")):
         document = document[int(key) if key.isdigit() else key]
     return document
@@ -63,7 +63,7 @@ def test_it_succeeds_and_writes_only_its_folder(product):
 
 @pytest.mark.parametrize(("path", "keys"), SCHEMA.items())
 def test_design_json_has_the_fields_that_others_rely_on(document, path, keys):
-    assert set(keys.split()) <= set(at(document, path))
+    assert set(keys.split()) <= set(value_at(document, path))
 
 
 def test_hashes_are_those_of_the_files(product, document):

@@ -23,7 +23,7 @@ import ocs_design.__main__ as program
 
 FULL = Path("/dev/full")
 has_full_device = pytest.mark.skipif(not FULL.exists(), reason="no such device here")
-UNSIZED = ("size", *BY_HAND, *BOUND, "--no-validate", "-o", "out")
+SIZE_BY_HAND = ("size", *BY_HAND, *BOUND, "--no-validate", "-o", "out")
 
 
 def shell(line, *arguments):
@@ -36,9 +36,9 @@ def shell(line, *arguments):
 @pytest.mark.slow
 def test_closed_streams_do_not_change_the_files(folder):
     """Printed text must not end up in files that are opened with their descriptors."""
-    process = shell('"$@" <&- >&- 2>&-', *UNSIZED)
+    process = shell('"$@" <&- >&- 2>&-', *SIZE_BY_HAND)
     assert (process.returncode, process.stdout, process.stderr) == (0, "", "")
-    assert run("size", *UNSIZED[1:-1], "open", "-q").code == 0
+    assert run("size", *SIZE_BY_HAND[1:-1], "open", "-q").code == 0
     for name in ("snippets/ocs.urdf", "cad/bill_of_materials.csv"):
         assert (folder / "out" / name).read_bytes() == (folder / "open" / name).read_bytes()
 
@@ -54,7 +54,7 @@ def test_a_full_standard_output_is_an_error(folder):
 @pytest.mark.slow
 @has_full_device
 def test_a_full_standard_error_is_an_error(folder):
-    assert shell(f'"$@" 2> {FULL}', *UNSIZED).returncode == 3
+    assert shell(f'"$@" 2> {FULL}', *SIZE_BY_HAND).returncode == 3
     assert all_paths_in(folder) == []
 
 
@@ -96,7 +96,7 @@ ANSWERS = [
     (("bound", "--inertia", "0.0515", "--rate-change", "2rad/s"), "one wheel, required"),
     (("catalogue", "materials"), "brass-c360"),
     (("init", "-y", "-o", "task.toml", "--force"), "next"),
-    ((*UNSIZED, "--force"), "no flight was simulated"),
+    ((*SIZE_BY_HAND, "--force"), "no flight was simulated"),
     (("export", "DESIGN", "-o", "again", "--force", "--formats", "snippets"), "snippets/"),
     (("validate", "DESIGN"), "level 1 of 1"),
     pytest.param(("pareto", SOLO12, "--points", "2", *ONE_MOTOR), "mass", marks=pytest.mark.slow),
@@ -104,14 +104,14 @@ ANSWERS = [
     pytest.param(("doctor",), "numpy", marks=pytest.mark.exhaustive),
 ]
 PROGRESS = re.compile(r" *[\d.]+ s  \S.*|warning: .*")
-IN_A_PROCESS = ("inspect", "doctor")
+SEPARATE_PROCESS = ("inspect", "doctor")
 """Commands that run in processes of their own; the others run within the tests."""
 FRAMES = re.compile(r"[\u2500-\u259f\u2800-\u28ff\x1b]")
 
 
 def in_a_pipe(command, *options):
     """Result of a command whose output is a pipe of unknown width."""
-    if command in IN_A_PROCESS:
+    if command in SEPARATE_PROCESS:
         return run_process(command, *options, env=environment())
     return run(command, *options, piped=True)
 

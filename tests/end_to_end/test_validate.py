@@ -155,9 +155,9 @@ def test_a_changed_control_law_is_recorded(by_hand, folder):
     design = json.loads(Path("first/design.json").read_text())
     assert design["control"]["kp"] == 90.0
     assert design["requirement"]["detection"] > 0.0
-    again = run("validate", "first", "--json")
-    assert again.document["validation"] == first.document["validation"]
-    assert again.document["survival"] == first.document["survival"]
+    repeated = run("validate", "first", "--json")
+    assert repeated.document["validation"] == first.document["validation"]
+    assert repeated.document["survival"] == first.document["survival"]
     run("validate", by_hand, *options, "--samples", "1", "-o", "mc", "-q")
     case = next(Path("mc/worst").iterdir())
     assert run("validate", "first", "--replay", case, "-q").code in {0, 1}

@@ -81,7 +81,7 @@ def killed_at_each_call(folder, *arguments):
                 path.write_text("old")
 
 
-WHOLE = ["out", "out/cad", f"out/{DESIGN_FILE}"]
+COMPLETE = ["out", "out/cad", f"out/{DESIGN_FILE}"]
 
 
 @pytest.mark.parametrize(
@@ -92,7 +92,7 @@ def test_a_kill_leaves_the_old_folder_or_the_new_one(tmp_path, arguments, times_
     """Where two folders cannot be exchanged, the next run restores the old one."""
     outcomes = list(killed_at_each_call(tmp_path, *arguments))
     assert len(outcomes) > 15
-    assert all(cleared in (OLD, NEW) and names == WHOLE for _, cleared, names in outcomes)
+    assert all(cleared in (OLD, NEW) and names == COMPLETE for _, cleared, names in outcomes)
     assert (outcomes[0][1], outcomes[-1][1]) == (OLD, NEW)
     assert sum(at_once is None for at_once, _, _ in outcomes) == times_without
 
@@ -154,7 +154,7 @@ def test_an_interrupt_leaves_the_old_folder_or_the_new_one(tmp_path):
         done = replaced(target, InterruptedAt(moment))
         remove_unfinished()
         assert texts(target) in (OLD, NEW), moment
-        assert all_paths_in(tmp_path) == WHOLE, moment
+        assert all_paths_in(tmp_path) == COMPLETE, moment
         for path in target.iterdir():
             path.write_text("old")
     assert moment > 500
@@ -217,7 +217,7 @@ def test_a_failure_leaves_everything_as_it_was_and_a_full_disk_has_a_hint(tmp_pa
     ):
         (folder / DESIGN_FILE).write_text("half")
         raise error
-    assert all_paths_in(tmp_path) == (WHOLE if exists else [])
+    assert all_paths_in(tmp_path) == (COMPLETE if exists else [])
     assert not exists or texts(target) == OLD
     if isinstance(caught.value, OutputError):
         assert "No space left" in caught.value.message

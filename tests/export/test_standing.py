@@ -147,13 +147,13 @@ def test_pinocchio_has_the_same_places(folder):
     for module in DEVICE.modules:
         visuals = still_visuals(DEVICE, module)
         for index, visual in enumerate(visuals):
-            index_in_geometry = geometry.getGeometryId(f"ocs_{module.name}_motor_{index}")
-            place = trunk.actInv(frames.oMg[index_in_geometry])
+            number = geometry.getGeometryId(f"ocs_{module.name}_motor_{index}")
+            place = trunk.actInv(frames.oMg[number])
             expected = wheel_of(module) @ homogeneous(visual.place)
             np.testing.assert_allclose(place.homogeneous, expected, rtol=0.0, atol=1e-12)
-            color = geometry.geometryObjects[index_in_geometry].meshColor
+            color = geometry.geometryObjects[number].meshColor
             np.testing.assert_allclose(color, visual.color)
-        names = [object_.name for object_ in geometry.geometryObjects]
+        names = [shape.name for shape in geometry.geometryObjects]
         assert sum(name.startswith(f"ocs_{module.name}_motor_") for name in names) == len(visuals)
 
 

@@ -122,9 +122,9 @@ def tree(path) -> list[ShownSolid]:
     colors = XCAFDoc_DocumentTool.ColorTool_s(document.Main())
 
     def name(label):
-        found = TDataStd_Name()
-        assert label.FindAttribute(TDataStd_Name.GetID_s(), found)
-        return found.Get().ToExtString()
+        attribute = TDataStd_Name()
+        assert label.FindAttribute(TDataStd_Name.GetID_s(), attribute)
+        return attribute.Get().ToExtString()
 
     def below(label, names, place):
         if XCAFDoc_ShapeTool.IsReference_s(label):

@@ -58,9 +58,9 @@ def test_parts_stand_side_by_side_on_the_bed(tmp_path):
         item = iterator.GetCurrent()
         transform = np.array([list(row) for row in item.GetObjectTransform().Fields])
         (mesh,) = [
-            mesh_of(found)
-            for found in objects(model)
-            if found.GetResourceID() == item.GetObjectResourceID()
+            mesh_of(mesh_object)
+            for mesh_object in objects(model)
+            if mesh_object.GetResourceID() == item.GetObjectResourceID()
         ]
         corners = 1e3 * mesh.vertices @ transform[:3] + transform[3]
         boxes.append((corners.min(axis=0), corners.max(axis=0)))

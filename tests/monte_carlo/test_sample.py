@@ -27,11 +27,11 @@ def test_every_key_has_a_default_and_its_own_values(solo12):
 
 
 def test_a_changed_distribution_does_not_affect_other_quantities(solo12):
-    one = Sample.draw(uncertainty(solo12), 3, 5)
-    other = Sample.draw(uncertainty(solo12, com_error=Normal(0.0, 1.0)), 3, 5)
-    same = [not name.startswith("com_error") for name in NAMES]
-    np.testing.assert_array_equal(one.values[same], other.values[same])
-    assert not np.any(one.of("com_error") == other.of("com_error"))
+    usual = Sample.draw(uncertainty(solo12), 3, 5)
+    changed = Sample.draw(uncertainty(solo12, com_error=Normal(0.0, 1.0)), 3, 5)
+    unaffected = [not name.startswith("com_error") for name in NAMES]
+    np.testing.assert_array_equal(usual.values[unaffected], changed.values[unaffected])
+    assert not np.any(usual.of("com_error") == changed.of("com_error"))
 
 
 def test_samples_and_seeds_are_independent(solo12):

@@ -19,11 +19,11 @@ IN_LINE = Flip(name="flip", jump_height=1.0, angle=-3.0, duration=1.0, incidence
 
 def test_only_the_actual_cause_is_found():
     outcomes = synthetic_outcomes(range(400))
-    found_causes = causes(outcomes, severity_ranking(outcomes, DROP, 0))
-    assert [(cause.quantity, cause.either_way) for cause in found_causes] == [(NAMES[0], True)]
+    actual = causes(outcomes, severity_ranking(outcomes, DROP, 0))
+    assert [(cause.quantity, cause.either_way) for cause in actual] == [(NAMES[0], True)]
     distance = np.abs(outcomes.values[:, 0] - np.median(outcomes.values[:, 0]))
     expected = stats.spearmanr(distance, attitude_error(outcomes, DROP, 0)).statistic
-    assert abs(found_causes[0].correlation - expected) < 1e-12
+    assert abs(actual[0].correlation - expected) < 1e-12
 
 
 def test_one_sided_causes_have_their_sign():

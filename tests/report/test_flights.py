@@ -96,11 +96,11 @@ def test_equal_notes_of_several_flights_are_one_remark():
 
 def test_a_row_is_named_by_its_scenario_or_by_the_device_alone():
     runs = [run(), run(ocs=False)]
-    many, one = flight_table(runs), flight_table(runs, one_scenario=True)
-    assert [row[0] for row in many.rows] == ["kerb", "  without"]
-    assert [row[0] for row in one.rows] == ["with", "without"]
-    assert [table.columns[0].name for table in (many, one)] == ["scenario", "device"]
-    assert [row[1:] for row in many.rows] == [row[1:] for row in one.rows]
+    by_scenario, by_device = flight_table(runs), flight_table(runs, one_scenario=True)
+    assert [row[0] for row in by_scenario.rows] == ["kerb", "  without"]
+    assert [row[0] for row in by_device.rows] == ["with", "without"]
+    assert [table.columns[0].name for table in (by_scenario, by_device)] == ["scenario", "device"]
+    assert [row[1:] for row in by_scenario.rows] == [row[1:] for row in by_device.rows]
 
 
 AIRBORNE = {"lift_off_time": 0.0, "touchdown_time": 1.0}

@@ -45,15 +45,15 @@ def verdict(*runs, yes=True, points=(), **motor):
     )
 
 
-OFF = {"passed": False, "level": False, "stands": False}
+FAILED = {"passed": False, "level": False, "stands": False}
 POINT = OpenPoint(what="no source gives the threads", cure="choose another")
 VERDICTS = {
     "all flights pass": (
-        (run(), run("flip"), run(ocs=False, **OFF)),
+        (run(), run("flip"), run(ocs=False, **FAILED)),
         ("level 2 of 2  ·  stands 2 of 2", Tone.PASS, ""),
     ),
     "a failed flight with its reason": (
-        (run(), run("flip", **OFF, reason="turns 200")),
+        (run(), run("flip", **FAILED, reason="turns 200")),
         ("level 1 of 2  ·  stands 1 of 2", Tone.FAIL, "flip: turns 200"),
     ),
     "an incomplete turn fails though it lands level": (
@@ -100,7 +100,7 @@ def test_a_robot_that_ends_leaning_is_counted_separately():
 
 
 def test_warnings_list_the_failed_flights_that_the_headline_does_not_name():
-    runs = run("back-flip", **OFF, reason="turns 200"), run("flip", **OFF, reason="turns 9")
+    runs = run("back-flip", **FAILED, reason="turns 200"), run("flip", **FAILED, reason="turns 9")
     stream = StringIO()
     sized = replace(design(MOTOR), validation=runs, buildable=Buildable(yes=True))
     print_summary(Console(file=stream, width=100), sized, (), Path("out"))

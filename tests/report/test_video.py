@@ -119,16 +119,16 @@ def test_an_mp4_has_all_frames_in_real_time(tmp_path):
     assert seconds == pytest.approx(len(SHADES) * 0.03, abs=0.01)
 
 
-def fails(program, **options):
+def failing_ffmpeg(program, **options):
     return subprocess.CompletedProcess(program, 1, b"", b"no libx264")
 
 
-def hangs(program, **options):
+def hanging_ffmpeg(program, **options):
     Path(program[-1]).write_bytes(b"half a film")
     raise subprocess.TimeoutExpired(program, 300.0)
 
 
-@pytest.mark.parametrize("ffmpeg", [None, fails, hangs])
+@pytest.mark.parametrize("ffmpeg", [None, failing_ffmpeg, hanging_ffmpeg])
 def test_a_gif_in_real_time_where_there_is_no_mp4(tmp_path, monkeypatch, ffmpeg):
     monkeypatch.setattr(video, "ffmpeg_program", lambda: ffmpeg and "ffmpeg")
     monkeypatch.setattr(video.subprocess, "run", ffmpeg)

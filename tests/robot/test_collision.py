@@ -169,10 +169,10 @@ def test_postures_may_start_from_another_one():
     changed = [{name: posture[name] for name in list(posture)[:2]} for posture in others]
     part = collision.parts[-1]
     expected = collision.poses([{**start, **posture} for posture in changed])
-    found = collision.poses(changed, [part], start=start)
-    assert list(found.postures) == list(expected.postures)
-    np.testing.assert_array_equal(found.positions[:, part.geoms], expected.positions[:, part.geoms])
-    np.testing.assert_array_equal(found.axes[:, part.geoms], expected.axes[:, part.geoms])
+    poses = collision.poses(changed, [part], start=start)
+    assert list(poses.postures) == list(expected.postures)
+    np.testing.assert_array_equal(poses.positions[:, part.geoms], expected.positions[:, part.geoms])
+    np.testing.assert_array_equal(poses.axes[:, part.geoms], expected.axes[:, part.geoms])
 
 
 def test_a_fine_visual_mesh_collides_as_its_hull(tmp_path):

@@ -13,13 +13,13 @@ FLOOR = 1e-12
 MOMENT = st.floats(-1.0, 1.0)
 
 
-def compiled(found):
+def compiled(inertial_data):
     spec = mujoco.MjSpec()
     body = spec.worldbody.add_body(
-        mass=found.mass,
-        ipos=found.position,
-        iquat=found.quaternion,
-        inertia=found.moments,
+        mass=inertial_data.mass,
+        ipos=inertial_data.position,
+        iquat=inertial_data.quaternion,
+        inertia=inertial_data.moments,
         explicitinertial=True,
     )
     body.add_freejoint()
@@ -52,10 +52,12 @@ def test_physical_moments_stay_as_they_are(second_moments):
 
 @pytest.mark.parametrize("excess", [1e-16, 4e-16, 1e-15, 1e-12])
 def test_mujoco_accepts_a_plate_that_rounding_has_made_too_flat(excess):
-    raw = MassProperties(1.0, np.zeros(3), np.diag([1e-3, 1e-3, 2e-3 * (1.0 + excess)]))
-    found = inertial(raw)
-    assert found.warning is None
-    np.testing.assert_allclose(compiled(found).body_inertia[1], np.diag(raw.inertia), rtol=1e-9)
+    too_flat = MassProperties(1.0, np.zeros(3), np.diag([1e-3, 1e-3, 2e-3 * (1.0 + excess)]))
+    corrected = inertial(too_flat)
+    assert corrected.warning is None
+    np.testing.assert_allclose(
+        compiled(corrected).body_inertia[1], np.diag(too_flat.inertia), rtol=1e-9
+    )
 
 
 def test_full_inertia_survives_the_principal_axes():
@@ -63,22 +65,22 @@ def test_full_inertia_survives_the_principal_axes():
     for _ in range(100):
         points = rng.normal(size=(20, 3)) * [1.0, 2.0, 0.5]
         inertia = sum(p @ p * np.eye(3) - np.outer(p, p) for p in points)
-        found = inertial(MassProperties(2.0, np.array([0.1, 0.2, 0.3]), inertia))
+        principal = inertial(MassProperties(2.0, np.array([0.1, 0.2, 0.3]), inertia))
         rotation = np.empty(9)
-        mujoco.mju_quat2Mat(rotation, found.quaternion)
+        mujoco.mju_quat2Mat(rotation, principal.quaternion)
         axes = rotation.reshape(3, 3)
-        np.testing.assert_allclose(axes @ np.diag(found.moments) @ axes.T, inertia, rtol=1e-12)
+        np.testing.assert_allclose(axes @ np.diag(principal.moments) @ axes.T, inertia, rtol=1e-12)
 
 
 def test_an_impossible_inertia_is_corrected_with_a_warning():
-    found = inertial(MassProperties(1.0, np.zeros(3), np.diag([1.0, 1.0, 5.0])))
-    np.testing.assert_allclose(found.moments, [2.0, 2.0, 4.0], rtol=1e-12)
-    assert "2, 2, 4 kg m^2" in found.warning
-    compiled(found)
+    corrected = inertial(MassProperties(1.0, np.zeros(3), np.diag([1.0, 1.0, 5.0])))
+    np.testing.assert_allclose(corrected.moments, [2.0, 2.0, 4.0], rtol=1e-12)
+    assert "2, 2, 4 kg m^2" in corrected.warning
+    compiled(corrected)
 
 
 def test_a_massless_body_gets_a_tiny_mass():
-    found = inertial(MassProperties.zero())
-    assert found.mass == 1e-9
-    assert found.warning is not None
-    compiled(found)
+    corrected = inertial(MassProperties.zero())
+    assert corrected.mass == 1e-9
+    assert corrected.warning is not None
+    compiled(corrected)

@@ -58,7 +58,7 @@ ZEROS = {
 }
 
 
-def hung(parent="trunk", **hips):
+def hanging_legs(parent="trunk", **hips):
     """Legs that hang straight down from these hips, by name."""
     return [
         part
@@ -67,7 +67,7 @@ def hung(parent="trunk", **hips):
     ]
 
 
-def pair(parts, height=0.1, aside=0.2, parent="trunk", words=("thigh", "shank", "foot")):
+def pair_of_limbs(parts, height=0.1, aside=0.2, parent="trunk", words=("thigh", "shank", "foot")):
     """A limb on the left and one on the right."""
     sides = ("l", aside), ("r", -aside)
     return [
@@ -77,7 +77,7 @@ def pair(parts, height=0.1, aside=0.2, parent="trunk", words=("thigh", "shank", 
     ]
 
 
-PAIR = hung(a=(0.0, 0.1, 0.0), b=(0.0, -0.1, 0.0))
+PAIR = hanging_legs(a=(0.0, 0.1, 0.0), b=(0.0, -0.1, 0.0))
 TORSO = link("torso", inertial(3.0)), hinge("waist", "trunk", "torso", "0 0 0.1")
 ARM = ("upper_arm", "forearm", "hand")
 OUTWARDS = ZEROS["level, knees outwards"]
@@ -128,7 +128,7 @@ def hips_that_follow():
         if side == "right":
             hip = hip.replace("</joint>", '<mimic joint="left_yaw"/></joint>')
         elements += [link(f"{side}_hip", inertial(0.1)), hip]
-        elements += hung(f"{side}_hip", **{side: (0.0, 0.0, 0.0)})
+        elements += hanging_legs(f"{side}_hip", **{side: (0.0, 0.0, 0.0)})
     return elements
 
 
@@ -158,16 +158,19 @@ FOUR_WHEELS = with_wheels(2, **{name: (*at, 0.0) for name, at in CORNERS.items()
 UNAMBIGUOUS = {
     **{zero: (quadruped(*parts), ALL_FEET) for zero, parts in ZEROS.items()},
     "a second pair on a torso is arms": (
-        [TRUNK, *TORSO, *pair(ZEROS["hanging"], 0.3, parent="torso"), *PAIR],
+        [TRUNK, *TORSO, *pair_of_limbs(ZEROS["hanging"], 0.3, parent="torso"), *PAIR],
         ["a_foot", "b_foot"],
     ),
     "limbs of prismatic joints alone are no legs": ([TRUNK, *sliding_limbs()], []),
     "six, the middle ones longer": (hexapod("hanging", f=1.0, m=1.15, h=1.0), SIX_FEET),
     "six that are level": (hexapod("level, knees outwards", f=1.0, m=1.15, h=1.0), SIX_FEET),
     "wheels on legs": (FOUR_WHEELS, [f"{name}_wheel" for name in CORNERS]),
-    "limbs named as arms": ([TRUNK, *pair(OUTWARDS, words=("arm", "forearm", "hand"))], []),
+    "limbs named as arms": (
+        [TRUNK, *pair_of_limbs(OUTWARDS, words=("arm", "forearm", "hand"))],
+        [],
+    ),
     "fins that hang like legs": (
-        [TRUNK, *pair(ZEROS["hanging"], 0.0, 0.1, words=("fin", "fintip", "fin_end"))],
+        [TRUNK, *pair_of_limbs(ZEROS["hanging"], 0.0, 0.1, words=("fin", "fintip", "fin_end"))],
         [],
     ),
     "a hip that follows the other one": (hips_that_follow(), ["left_foot", "right_foot"]),
@@ -185,7 +188,7 @@ def test_unambiguous_robots_raise_no_question(elements, expected):
 
 AMBIGUOUS = {
     "three legs, in the order of the file": (
-        hung(c=(0.2, 0.0, 0.0), a=(-0.1, 0.1, 0.0), b=(-0.1, -0.1, 0.0)),
+        hanging_legs(c=(0.2, 0.0, 0.0), a=(-0.1, 0.1, 0.0), b=(-0.1, -0.1, 0.0)),
         ["c_foot", "a_foot", "b_foot"],
         "",
     ),
@@ -195,7 +198,7 @@ AMBIGUOUS = {
         "",
     ),
     "limbs high above the centre of mass": (
-        pair(ZEROS["hanging"], 1.0, 0.1),
+        pair_of_limbs(ZEROS["hanging"], 1.0, 0.1),
         ["l_foot", "r_foot"],
         "",
     ),
@@ -206,7 +209,7 @@ AMBIGUOUS = {
     ),
     "a prosthesis and a leg": (
         [
-            *hung(l=(0.0, 0.1, 0.0)),
+            *hanging_legs(l=(0.0, 0.1, 0.0)),
             *leg("r", (0.0, -0.1, 0.0), (0.0, 0.0, -0.2), (0.0, 0.05, -0.2)),
             link("r_toe", inertial(0.1)),
             hinge("r_d", "r_foot", "r_toe", "0 0 -0.1"),
@@ -220,7 +223,7 @@ AMBIGUOUS = {
         "fl_foot, fr_foot",
     ),
     "one leg beside arms": (
-        [*hung(right=(0.0, -0.1, 0.0)), *pair(OUTWARDS, words=ARM)],
+        [*hanging_legs(right=(0.0, -0.1, 0.0)), *pair_of_limbs(OUTWARDS, words=ARM)],
         ["right_foot"],
         "it is not the robot's only limb",
     ),
@@ -303,7 +306,7 @@ def dog():
     ]
     for name, (_, y) in CORNERS.items():
         parent = "chest" if name[0] == "f" else "pelvis"
-        elements += hung(parent, **{name: (0.0, y, 0.0)})
+        elements += hanging_legs(parent, **{name: (0.0, y, 0.0)})
     return elements
 
 
@@ -457,7 +460,7 @@ def test_limbs_that_a_model_ties_together_raise_a_question(tmp_path):
 def test_a_robot_that_its_file_fixes_to_the_world_has_its_own_trunk(tmp_path):
     world = joint("hang", "world", "trunk", '<origin xyz="0 0 1"/>', kind="fixed")
     free = read_file(tmp_path, quadruped(*ZEROS["bent"]))
-    hung = read_file(tmp_path, [link("world"), world, *quadruped(*ZEROS["bent"])])
-    assert hung.trunk == "trunk"
-    assert hung.standing_height == pytest.approx(free.standing_height, abs=1e-12)
-    np.testing.assert_allclose(hung.com, free.com, atol=1e-12)
+    fixed = read_file(tmp_path, [link("world"), world, *quadruped(*ZEROS["bent"])])
+    assert fixed.trunk == "trunk"
+    assert fixed.standing_height == pytest.approx(free.standing_height, abs=1e-12)
+    np.testing.assert_allclose(fixed.com, free.com, atol=1e-12)

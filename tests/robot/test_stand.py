@@ -26,10 +26,10 @@ STRAIGHTER = {
 HUMAN = "human_description/robots/human"
 WHEELED = "centauro_description/urdf/centauro"
 # Listed here, since reading every robot would delay the first test.
-BARE_FEET = [
+POINT_FEET = [
     name for name in LEGGED if name != WHEELED and (ANATOMY[name][1] == 4 or "bolt" in name)
 ]
-SOLED = [name for name in LEGGED if name not in BARE_FEET and name != WHEELED]
+WITH_SOLES = [name for name in LEGGED if name not in POINT_FEET and name != WHEELED]
 
 
 def standing(name, share=SHARE_OF_LEG):
@@ -66,7 +66,7 @@ def soles(name, posture, tree, legs, up):
 @pytest.mark.parametrize("name", robot_parameters(LEGGED))
 def test_all_feet_stand_on_one_plane_within_the_joint_limits(name):
     tree, legs, stance = standing(name)
-    assert (len(legs[0].joints) < 5) == (name in BARE_FEET)
+    assert (len(legs[0].joints) < 5) == (name in POINT_FEET)
     up = up_of(name)
     heights = [point @ up for point, _ in soles(name, stance.posture, tree, legs, up)]
     assert heights == pytest.approx([-height(name, stance)] * len(legs), abs=1e-3)
@@ -76,8 +76,8 @@ def test_all_feet_stand_on_one_plane_within_the_joint_limits(name):
     assert len(stance.warnings) == (1 if name in STRAIGHTER else 0)
 
 
-@pytest.mark.parametrize("name", BARE_FEET)
-def test_bare_feet_are_below_the_hinges_that_swing_them(name):
+@pytest.mark.parametrize("name", POINT_FEET)
+def test_point_feet_are_below_the_hinges_that_swing_them(name):
     """The hip is the last but one joint of these legs; along its axis the foot may be anywhere."""
     tree, legs, stance = standing(name)
     up = up_of(name)
@@ -88,7 +88,7 @@ def test_bare_feet_are_below_the_hinges_that_swing_them(name):
         assert swing @ (sole - data.oMi[index].translation) == pytest.approx(0.0, abs=1e-3)
 
 
-@pytest.mark.parametrize("name", robot_parameters(SOLED))
+@pytest.mark.parametrize("name", robot_parameters(WITH_SOLES))
 def test_soles_stay_as_level_as_they_are_at_zero(name):
     tree, legs, stance = standing(name)
     up = up_of(name)

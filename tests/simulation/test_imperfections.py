@@ -22,7 +22,7 @@ from ocs_design.simulation.imperfections import (
 from ocs_design.simulation.motor_limits import MotorLimits
 
 NO_AIR = AirDrag(np.array([0.0, 1.0]), np.zeros(2))
-BOTH = np.ones(2)
+ONES = np.ones(2)
 UNLIMITED = stacked([MotorLimits(np.inf, 0.0, np.inf)] * 2)
 PERFECT = Imperfections(
     attitude_bias=np.zeros(2),
@@ -30,10 +30,10 @@ PERFECT = Imperfections(
     attitude_noise=0.0,
     gyro_noise=0.0,
     stream=np.random.SeedSequence(1),
-    torque_gain=BOTH,
+    torque_gain=ONES,
     limits=UNLIMITED,
-    coulomb=0.0 * BOTH,
-    viscous=0.0 * BOTH,
+    coulomb=0.0 * ONES,
+    viscous=0.0 * ONES,
     air=NO_AIR,
     air_factor=0.0,
     delay=0,
@@ -65,7 +65,7 @@ def spun(imperfections, commands, start=0.0):
 def test_a_wheel_runs_down_and_stays_at_rest():
     """`I W' = -c - d W` ends at `T ln(1 + d W0 / c)`, T = I / d."""
     coulomb, viscous, start = 5e-3, 2e-5, 400.0
-    with_friction = replace(PERFECT, coulomb=coulomb * BOTH, viscous=viscous * BOTH)
+    with_friction = replace(PERFECT, coulomb=coulomb * ONES, viscous=viscous * ONES)
     speed = spun(with_friction, np.zeros(1200), start)
     constant = INERTIA / viscous
     ends = constant * np.log(1.0 + viscous * start / coulomb)
@@ -76,7 +76,7 @@ def test_a_wheel_runs_down_and_stays_at_rest():
 
 
 def test_a_motor_must_overcome_friction_first():
-    with_friction = replace(PERFECT, coulomb=5e-3 * BOTH)
+    with_friction = replace(PERFECT, coulomb=5e-3 * ONES)
     assert not spun(with_friction, np.full(50, 4.9e-3)).any()
     assert spun(with_friction, np.full(50, 5.1e-3))[-1] > 0.0
 
@@ -92,8 +92,8 @@ def test_air_drag_is_interpolated_in_its_table():
 def test_the_power_limit_holds_for_motors_that_deviate(speed):
     """R (tau / k_t)^2 + tau W of both motors; tau and k_t are 1.09 times their nominal values."""
     copper, limit, response = 0.1 / 0.02**2 / 1.09**2, 100.0, HOLD * STEP / INERTIA
-    limits = replace(UNLIMITED, copper=copper * BOTH, power_max=np.array([limit]))
-    with_supply = replace(PERFECT, torque_gain=1.09 * BOTH, limits=limits)
+    limits = replace(UNLIMITED, copper=copper * ONES, power_max=np.array([limit]))
+    with_supply = replace(PERFECT, torque_gain=1.09 * ONES, limits=limits)
     speed, command = np.array([speed]), np.array([[0.06, -0.06]])
     mean, acting = drives(with_supply).applied_torque(0, command, speed)
 

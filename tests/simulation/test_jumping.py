@@ -90,11 +90,11 @@ def test_a_jump_balances_its_energy(world):
     """By an independent loop, which agrees with the centre of mass of the simulation."""
     recording = simulate([world])
     metrics = measure(recording, 0, world)
-    found = energy_balance(world, recording, 0, period=5e-3, until=metrics.touchdown_time)
-    instants = len(found.height)
-    assert found.height == pytest.approx(recording.com[:instants, 0, 2], abs=1e-9)
-    assert found.relative_residual(slice(round(metrics.lift_off_time / 5e-3), instants)) < 1e-4
-    assert found.relative_residual(slice(0, instants)) < 1e-3
+    energies = energy_balance(world, recording, 0, period=5e-3, until=metrics.touchdown_time)
+    instants = len(energies.height)
+    assert energies.height == pytest.approx(recording.com[:instants, 0, 2], abs=1e-9)
+    assert energies.relative_residual(slice(round(metrics.lift_off_time / 5e-3), instants)) < 1e-4
+    assert energies.relative_residual(slice(0, instants)) < 1e-3
 
 
 def test_worlds_with_different_steps_do_not_affect_each_other(solo12, builder, world):

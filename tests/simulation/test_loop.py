@@ -49,11 +49,11 @@ def test_a_single_axis_has_the_margins_of_python_control(control, gains, rate):
 def test_the_law_on_a_robot_has_the_margins_of_one_axis(world, rate):
     """The law inverts the dynamics: roll and pitch are two double integrators."""
     gains = np.column_stack([world.law.stiffness, world.law.damping])
-    one = loop_margins(STATE, CONTROL, gains, 1.0 / rate)
-    both = level_margins(world.law, world.body, 1.0 / rate)
-    assert both.crossover == pytest.approx(one.crossover, rel=1e-4)
-    assert both.phase == pytest.approx(one.phase, rel=1e-3)
-    assert both.delay == pytest.approx(one.delay, rel=1e-3)
+    single_axis = loop_margins(STATE, CONTROL, gains, 1.0 / rate)
+    robot_axes = level_margins(world.law, world.body, 1.0 / rate)
+    assert robot_axes.crossover == pytest.approx(single_axis.crossover, rel=1e-4)
+    assert robot_axes.phase == pytest.approx(single_axis.phase, rel=1e-3)
+    assert robot_axes.delay == pytest.approx(single_axis.delay, rel=1e-3)
 
 
 @pytest.mark.parametrize("rate", [200.0, 1000.0])

@@ -124,8 +124,8 @@ def test_plates_that_differ_have_a_sheet_each(inwards):
         middles = [" and ".join(middles)]
     assert re.findall(r"axes cross at x, y = (.*?) of the base frame", notes) == middles
     for page, plate in zip(pages, twice.each, strict=False):
-        said = [item.text for item in texts(page)]
-        assert all(f"{1e3 * y:.2f}" in said for _, y in plate.trunk)
+        words = [item.text for item in texts(page)]
+        assert all(f"{1e3 * y:.2f}" in words for _, y in plate.trunk)
         check_words(page)
 
 

@@ -67,8 +67,8 @@ def body(mesh, name="link"):
     return ShownBody(name, Placement.identity(), (surface,))
 
 
-def mesh_of(body_):
-    (surface,) = body_.surfaces
+def mesh_of(shown_body):
+    (surface,) = shown_body.surfaces
     return trimesh.Trimesh(surface.vertices, surface.faces, process=False)
 
 
@@ -101,11 +101,11 @@ def test_a_ball_stays_round():
 
 
 def test_a_small_mesh_keeps_its_triangles_with_merged_vertices():
-    soup = trimesh.creation.box()
-    loose = trimesh.Trimesh(
-        soup.triangles.reshape(-1, 3), np.arange(36).reshape(-1, 3), process=False
+    box_mesh = trimesh.creation.box()
+    separate = trimesh.Trimesh(
+        box_mesh.triangles.reshape(-1, 3), np.arange(36).reshape(-1, 3), process=False
     )
-    (merged,) = decimated([body(loose)], 100)
+    (merged,) = decimated([body(separate)], 100)
     (surface,) = merged.surfaces
     assert (len(surface.vertices), len(surface.faces)) == (8, 12)
     assert mesh_of(merged).volume == pytest.approx(1.0, rel=1e-3)
