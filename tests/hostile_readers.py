@@ -124,13 +124,13 @@ BY_HAND = robot_by_hand(2.5, (0.032, 0.055, 0.07))
 
 @dataclass(frozen=True)
 class Reader:
-    """What reads one kind of file.
+    """A reader of one kind of file.
 
     Attributes:
-        file: the name that it is given.
-        read: reads it and does what comes at once of it; an OcsError is the only way out.
-        seeds: that it can read.
-        words: that have a meaning for it.
+        file: name of the file.
+        read: reads and processes it; OcsError is the only permitted exception.
+        seeds: valid contents.
+        words: with a meaning in such files.
     """
 
     file: str
@@ -145,13 +145,13 @@ def read_and_inspect(path: Path) -> object:
 
 
 def read_and_build(path: Path) -> object:
-    """A robot and MuJoCo's model of it."""
+    """Read a robot and compile it in MuJoCo."""
     read_and_inspect(path)
     return build_spec(read_robot(path), visuals=False).spec.compile()
 
 
 def read_and_resolve(path: Path) -> object:
-    """A specification, and all that it leaves open."""
+    """Read a specification and resolve it for a robot."""
     specification = read_specification(path)
     return resolve(
         specification, BY_HAND, longest_side(BY_HAND.tree, BY_HAND.posture, BY_HAND.trunk)
@@ -159,7 +159,7 @@ def read_and_resolve(path: Path) -> object:
 
 
 def read_and_restore(path: Path) -> object:
-    """A design, the live values behind it, and what is made from them without a robot."""
+    """Read a design and restore its live values, without its robot's file."""
     design, device = read_designed(path)
     robot = robot_of(design.robot, path, {}) if design.robot.format == "manual" else None
     return (

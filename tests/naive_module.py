@@ -136,8 +136,8 @@ def _slots(height, thick):
 def _plate(outer, mount):
     """Moments about the wheel's axis; the outline starts at the underside, second axis down."""
     foot = Foot(Housing(outer, 0.01, mount, LID_SCREW))
-    drawn, up = foot.plate.outline(), np.array([0.0, foot.wheel_height])
-    area, first, second = area_moments(replace(drawn, points=drawn.points + up))
+    outline, up = foot.plate.outline(), np.array([0.0, foot.wheel_height])
+    area, first, second = area_moments(replace(outline, points=outline.points + up))
     return area, -first[1], second[0, 0], second[1, 1]
 
 

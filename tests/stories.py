@@ -50,7 +50,7 @@ def story(scenario="drop", motor=MOTOR):
     """One maneuver with the device and without."""
     outcomes = tuple(
         ValidationRecord(
-            scenario=scenario, ocs=ocs, passed=ocs, reason="as told", note="",
+            scenario=scenario, ocs=ocs, passed=ocs, reason="made up", note="",
             metrics={"touchdown_pitch": 0.1, "peak_wheel_speed": 300.0},
         )
         for ocs in (True, False)

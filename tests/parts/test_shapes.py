@@ -14,10 +14,10 @@ RADII = st.floats(0.5, 3.0)
 OFFSETS = st.tuples(st.floats(-3.0, 3.0), st.floats(-3.0, 3.0))
 
 
-def assert_same(found, expected, tolerance=1e-12):
+def assert_same(moments, expected, tolerance=1e-12):
     """Compare area, first and second moments, with tolerances that scale with the size."""
     size = 1.0 + np.sqrt(np.trace(expected[2]) / expected[0])
-    for power, (one, other) in enumerate(zip(found, expected, strict=True)):
+    for power, (one, other) in enumerate(zip(moments, expected, strict=True)):
         np.testing.assert_allclose(one, other, rtol=0.0, atol=tolerance * expected[0] * size**power)
 
 
@@ -26,8 +26,8 @@ def test_disc(radius, centre):
     area = np.pi * radius**2
     expected = area * (radius**2 / 4.0 * np.eye(2) + np.outer(centre, centre))
     disc = Disc(radius, centre)
-    for found in (as_area_moments(disc.moments), area_moments(disc.outline())):
-        assert_same(found, (area, area * np.array(centre), expected))
+    for moments in (as_area_moments(disc.moments), area_moments(disc.outline())):
+        assert_same(moments, (area, area * np.array(centre), expected))
 
 
 @given(st.floats(0.1, 2.0), st.floats(0.1, 2.0), OFFSETS)
@@ -37,15 +37,15 @@ def test_rectangle(width, height, corner):
     centre = np.array([x + width / 2.0, y + height / 2.0])
     own = np.diag([width**2, height**2]) / 12.0
     area = width * height
-    for found in (as_area_moments(shape.moments), area_moments(shape.outline())):
-        assert_same(found, (area, area * centre, area * (own + np.outer(centre, centre))))
+    for moments in (as_area_moments(shape.moments), area_moments(shape.outline())):
+        assert_same(moments, (area, area * centre, area * (own + np.outer(centre, centre))))
 
 
 def test_half_disc():
     # Centroid 4 r / (3 pi), second moments pi r^4 / 8 (any handbook).
     expected = (2.0 * np.pi, 2.0 * np.pi * np.array([0.0, -8.0 / (3.0 * np.pi)]))
-    found = area_moments(Outline(np.array([[-2.0, 0.0], [2.0, 0.0]]), np.array([1.0, 0.0])))
-    assert_same(found, (*expected, 2.0 * np.pi * np.eye(2)))
+    moments = area_moments(Outline(np.array([[-2.0, 0.0], [2.0, 0.0]]), np.array([1.0, 0.0])))
+    assert_same(moments, (*expected, 2.0 * np.pi * np.eye(2)))
 
 
 @given(st.floats(1.0, 3.0), st.floats(0.1, 0.9), st.floats(0.1, 6.0), st.floats(0.0, 6.0))
@@ -93,12 +93,12 @@ def test_four_posts(radius, bore, half_angle):
 )
 def test_arrays_and_numbers_agree(shape):
     radii = np.array([0.5, 0.7, 2.0])
-    found, areas = shape(radii).moments, shape(radii).area
+    moments, areas = shape(radii).moments, shape(radii).area
     for index, radius in enumerate(radii.tolist()):
         alone = shape(radius).moments
         assert areas[index] == pytest.approx(shape(radius).area, rel=1e-15)
         for name in ("mass", "x", "y", "xx", "yy", "xy"):
-            column = np.broadcast_to(getattr(found, name), radii.shape)
+            column = np.broadcast_to(getattr(moments, name), radii.shape)
             assert column[index] == pytest.approx(getattr(alone, name), rel=1e-14)
 
 
@@ -115,15 +115,15 @@ def test_a_circular_pattern_is_the_sum_of_its_members(count, first, centre):
 def test_moments_in_another_frame():
     body = MassMoments(2.0, 0.1, 0.2, 3.0, 4.0, 5.0, 0.3, x=0.4, xy=0.5, xz=0.6)
     rotation = np.linalg.qr(np.random.default_rng(0).normal(size=(3, 3)))[0]
-    found = body.turned(rotation).moved(0.1, 0.2, 0.3)
+    moments = body.turned(rotation).moved(0.1, 0.2, 0.3)
     first, move = rotation @ [0.4, 0.1, 0.2], np.array([0.1, 0.2, 0.3])
     second = rotation @ [[3.0, 0.5, 0.6], [0.5, 4.0, 0.3], [0.6, 0.3, 5.0]] @ rotation.T
     second = second + np.outer(first, move) + np.outer(move, first) + 2.0 * np.outer(move, move)
-    np.testing.assert_allclose([found.x, found.y, found.z], first + 2.0 * move, rtol=1e-14)
+    np.testing.assert_allclose([moments.x, moments.y, moments.z], first + 2.0 * move, rtol=1e-14)
     rows = [
-        [found.xx, found.xy, found.xz],
-        [found.xy, found.yy, found.yz],
-        [found.xz, found.yz, found.zz],
+        [moments.xx, moments.xy, moments.xz],
+        [moments.xy, moments.yy, moments.yz],
+        [moments.xz, moments.yz, moments.zz],
     ]
     np.testing.assert_allclose(rows, second, rtol=1e-13)
 

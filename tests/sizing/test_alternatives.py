@@ -36,10 +36,10 @@ ONE_MOTOR = Specification(motor=MotorSection(name="MN4014 KV400"))
 def compared(specification, change):
     """Task, design, and the alternative of one change."""
     task, design = design_of(specification)
-    return task, design, alternative(task, design.choice, change)
+    return task, design, alternative_with(task, design.choice, change)
 
 
-def alternative(task, choice, text):
+def alternative_with(task, choice, text):
     """The alternative of the change with this text."""
     (variant,) = [each for each in variants(task, choice) if each.text == text]
     return variant.alternative()
@@ -74,17 +74,21 @@ def slower_maneuvers(task):
     ],
 )
 def test_a_change_saves_as_much_as_a_new_design(change, section, section_for):
-    task, design, found = compared(ONE_MOTOR, change)
+    task, design, alternative = compared(ONE_MOTOR, change)
     changed = design_of(replace(ONE_MOTOR, **{section: section_for(task)}))[1]
     # Savings below 0.5 % are not reported.
-    assert found.mass_total == pytest.approx(changed.device.mass, rel=RELATIVE_TOLERANCE)
-    assert found.mass_total <= design.device.mass
+    assert alternative.mass_total == pytest.approx(changed.device.mass, rel=RELATIVE_TOLERANCE)
+    assert alternative.mass_total <= design.device.mass
     if section in {"ocs", "maneuvers"}:
         assert changed.device.mass < design.device.mass
     if section == "ocs" or section_for is flips_by_hand:
-        assert found.mass_total < design.device.mass
-    assert section != "ocs" or found.note.startswith("alpha ")
-    assert section != "supply" or "rated for" in found.note or found.note == "saves nothing"
+        assert alternative.mass_total < design.device.mass
+    assert section != "ocs" or alternative.note.startswith("alpha ")
+    assert (
+        section != "supply"
+        or "rated for" in alternative.note
+        or alternative.note == "saves nothing"
+    )
 
 
 @pytest.mark.slow
@@ -93,11 +97,11 @@ def test_mass_of_a_ring_alternative_includes_its_own_feet_and_plate():
     motor = MotorSection(name="Antigravity MN5008 KV400")
     discs = Specification(robot=RobotSection(file=SOLO12), motor=motor)
     task = solo12().with_specification(discs)
-    (found,) = alternative_construction(task, design_device(task, ranked=False).choice)
-    assert found.change == "a ring bonded around each motor's bell in place of the disc"
+    (alternative,) = alternative_construction(task, design_device(task, ranked=False).choice)
+    assert alternative.change == "a ring bonded around each motor's bell in place of the disc"
     rings = task.with_specification(replace(discs, ocs=OcsSection(wheel="ring")))
     device = design_device(rings, ranked=False).device
-    assert found.mass_total == pytest.approx(device.mass, rel=RELATIVE_TOLERANCE)
+    assert alternative.mass_total == pytest.approx(device.mass, rel=RELATIVE_TOLERANCE)
 
 
 def offered(specification):
@@ -132,9 +136,9 @@ def test_without_a_motor_there_are_no_alternatives():
 
 @pytest.mark.slow
 def test_the_alternative_of_any_motor_notes_missing_data():
-    _, design, found = compared(Specification(), "any motor of the catalogue")
-    assert found.mass_total <= design.device.mass
-    assert found.note == "saves nothing" or "not buildable: " in found.note
+    _, design, alternative = compared(Specification(), "any motor of the catalogue")
+    assert alternative.mass_total <= design.device.mass
+    assert alternative.note == "saves nothing" or "not buildable: " in alternative.note
 
 
 @pytest.mark.slow
@@ -143,7 +147,7 @@ def test_without_a_mount_alternatives_are_estimated_and_say_so():
     change = "modules turned to 0 deg by hand for each flip"
     task, design, full = compared(ONE_MOTOR, change)
     unmounted = replace(design.choice, lacks_mount=True)
-    quick = alternative(task, unmounted, change)
+    quick = alternative_with(task, unmounted, change)
     assert "by a quick look" in quick.note
     assert "by a quick look" not in full.note
     assert quick.mass_total == pytest.approx(full.mass_total, rel=0.02)

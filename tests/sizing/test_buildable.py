@@ -34,8 +34,8 @@ def margin(name, demand, capacity):
     ],
 )
 def test_buildable_is_decided_as_far_as_it_is_known(motor, mounting, demand, yes, open_points):
-    found = buildable(motor, mounting, (margin("bus power", demand, 1000.0),))
-    assert (found.yes, len(found.open)) == (yes, open_points)
+    result = buildable(motor, mounting, (margin("bus power", demand, 1000.0),))
+    assert (result.yes, len(result.open)) == (yes, open_points)
 
 
 def test_with_unknown_shapes_a_failing_joint_is_a_fault_and_a_collision_is_not():
@@ -45,14 +45,14 @@ def test_with_unknown_shapes_a_failing_joint_is_a_fault_and_a_collision_is_not()
     joint = Margin("shaft joint", 2.26, 1.37, "N m")
     assert buildable(KNOWN_MOTOR, unknown, (), (joint,)).yes is False
     overlaps = replace(unknown, nearest=Clearance("base", -0.035))
-    found = buildable(KNOWN_MOTOR, overlaps, ())
-    assert (found.yes, len(found.open)) == (None, 1)
+    result = buildable(KNOWN_MOTOR, overlaps, ())
+    assert (result.yes, len(result.open)) == (None, 1)
 
 
 def test_missing_data_of_a_motor_are_named():
-    found = buildable(replace(KNOWN_MOTOR, diameter=None, mass=None), FREE, ())
-    (point,) = found.open
-    assert found.yes is False
+    result = buildable(replace(KNOWN_MOTOR, diameter=None, mass=None), FREE, ())
+    (point,) = result.open
+    assert result.yes is False
     assert point.what == f"no source gives the body diameter and mass of {KNOWN_MOTOR.name}"
     assert "--motors" in point.cure
 
@@ -61,9 +61,9 @@ def test_missing_data_of_a_motor_are_named():
     "name", ["wheel speed", "motor torque", "bus current, fed back", "hoop stress"]
 )
 def test_an_exceeded_capacity_is_an_open_point(name):
-    found = buildable(KNOWN_MOTOR, FREE, (margin(name, 1200.0, 1000.0),))
-    assert found.yes is False
-    assert found.open[0].what == f"{name}: 1,200 W required by drop, 1,000 W allowed"
+    result = buildable(KNOWN_MOTOR, FREE, (margin(name, 1200.0, 1000.0),))
+    assert result.yes is False
+    assert result.open[0].what == f"{name}: 1,200 W required by drop, 1,000 W allowed"
 
 
 @pytest.mark.parametrize(
@@ -91,9 +91,9 @@ def test_a_capacity_is_exceeded_only_beyond_a_tolerance(name, demand, yes):
     ],
 )
 def test_a_weak_or_unknown_joint_is_an_open_point(joint, words):
-    found = buildable(KNOWN_MOTOR, FREE, (), (joint,))
-    assert found.yes is False
-    assert words in found.open[0].what
+    result = buildable(KNOWN_MOTOR, FREE, (), (joint,))
+    assert result.yes is False
+    assert words in result.open[0].what
 
 
 @pytest.mark.parametrize("name", ["shaft joint, screws in shear", "landing shock, foot"])
@@ -103,9 +103,9 @@ def test_joints_backed_by_friction_or_a_milled_foot_are_no_fault(name):
 
 
 def test_a_collision_is_an_open_point():
-    found = buildable(KNOWN_MOTOR, replace(FREE, nearest=Clearance("leg", -0.002)), ())
-    assert found.yes is False
-    assert "leg" in found.open[0].what
+    result = buildable(KNOWN_MOTOR, replace(FREE, nearest=Clearance("leg", -0.002)), ())
+    assert result.yes is False
+    assert "leg" in result.open[0].what
 
 
 LEGLESS = """<robot name="rover"><link name="trunk"><inertial><mass value="2"/>
@@ -130,12 +130,12 @@ def test_missing_meshes_make_a_device_unbuildable(tmp_path, shapes, missing):
     file = tmp_path / "rover.urdf"
     file.write_text(LEGLESS.format("".join(f"<{kind}>{each}</{kind}>" for kind, each in kinds)))
     robot = read_robot(file, legs=())
-    found = buildable(KNOWN_MOTOR, FREE, (), (), robot)
-    assert found.yes is not missing
+    result = buildable(KNOWN_MOTOR, FREE, (), (), robot)
+    assert result.yes is not missing
     assert buildable(None, FREE, (), (), robot).yes is None
     assert any("the top of the trunk is not known" in each for each in robot.warnings) is missing
     if missing:
-        (point,) = found.open
+        (point,) = result.open
         assert point.what == "meshes are missing: the shape of trunk is not known"
         assert point.cure == "give --package-path rover=DIR"
 
@@ -146,8 +146,8 @@ def test_a_missing_mesh_of_the_trunk_is_named_before_loose_feet(tmp_path, visual
     file = tmp_path / "rover.urdf"
     file.write_text(LEGLESS.format(f"<collision>{BALL}</collision><visual>{visual}</visual>"))
     loose = FootContact("left foot", "trunk", 0.0, inf, 0.0, held=False)
-    found = buildable(KNOWN_MOTOR, replace(FREE, feet=(loose,)), (), (), read_robot(file, legs=()))
-    cures = [point.cure for point in found.open]
+    result = buildable(KNOWN_MOTOR, replace(FREE, feet=(loose,)), (), (), read_robot(file, legs=()))
+    cures = [point.cure for point in result.open]
     assert "--position" in cures[-1]
     assert cures[:-1] == (["give --package-path rover=DIR"] if missing else [])
 
@@ -162,7 +162,7 @@ def test_missing_meshes_of_an_mjcf_count_too(tmp_path, collides, missing):
         '<geom type="box" size="0.1 0.1 0.1"/><geom type="mesh" mesh="hull" '
         f'contype="{collides}" conaffinity="{collides}"/></body></worldbody></mujoco>'
     )
-    found = buildable(KNOWN_MOTOR, FREE, (), (), read_robot(file, legs=()))
-    assert found.yes is not missing
+    result = buildable(KNOWN_MOTOR, FREE, (), (), read_robot(file, legs=()))
+    assert result.yes is not missing
     if missing:
-        assert found.open[0].cure == f"put them where the model names them, below {tmp_path}"
+        assert result.open[0].cure == f"put them where the model names them, below {tmp_path}"

@@ -41,20 +41,20 @@ def robot_with_mast(tmp_path):
 
 def test_a_distant_mast_does_not_matter(robot_with_mast):
     robot = robot_with_mast(0.28)
-    found = place_free(robot, default_envelope(robot))
-    assert (found.place, found.free) == (place_on_top(robot), True)
+    free_place = place_free(robot, default_envelope(robot))
+    assert (free_place.place, free_place.free) == (place_on_top(robot), True)
 
 
 def test_a_mast_in_the_middle_is_between_the_modules(robot_with_mast):
     robot = robot_with_mast(0.0)
     envelope = default_envelope(robot)
-    found = place_free(robot, envelope)
-    assert (found.face, found.free) == ("on top of", True)
+    free_place = place_free(robot, envelope)
+    assert (free_place.face, free_place.free) == ("on top of", True)
     # Spheres of 1.1 times the module's radius clear the mast, for every size.
     sizes = Sizes.of(envelope)
     for share in np.linspace(0.0, 1.0, 30):
         reach, standing = (1.0 - share) * np.array(sizes.smallest) + share * np.array(sizes.largest)
-        x, y, _ = found.place.centers(Size(reach, standing))[0]
+        x, y, _ = free_place.place.centers(Size(reach, standing))[0]
         assert np.hypot(x, y) - 0.02 >= SPACING * reach - 1e-5
 
 
@@ -62,8 +62,8 @@ def test_a_place_is_refined_between_grid_points(robot_with_mast):
     """In front of the mast or behind it: x^2 + (1.1 s)^2 = (1.1 s + r)^2 for the largest s."""
     robot = robot_with_mast(0.0)
     largest = Sizes.of(default_envelope(robot)).largest
-    found = place_free(robot, default_envelope(robot))
-    x, y, _ = found.place.origins[0]
+    free_place = place_free(robot, default_envelope(robot))
+    x, y, _ = free_place.place.origins[0]
     nearest = np.sqrt(2.0 * SPACING * largest.reach * 0.02 + 0.02**2)
     assert y == 0.0
     assert nearest - 1e-5 <= abs(x) <= nearest + 0.5 * largest.reach / 16.0
@@ -80,12 +80,12 @@ def test_a_specified_position_is_kept(robot_with_mast):
 def test_every_legged_robot_has_a_free_place(name):
     robot = read_robot(ROBOTS / f"{name}.urdf")
     envelope = default_envelope(robot)
-    found = place_free(robot, envelope)
-    assert found.free
-    assert (found.place == place_on_top(robot)) == (name.rpartition("/")[2] in ON_TOP)
+    free_place = place_free(robot, envelope)
+    assert free_place.free
+    assert (free_place.place == place_on_top(robot)) == (name.rpartition("/")[2] in ON_TOP)
     collision, size = collision_model(robot), Sizes.of(envelope).largest
     others = collision.limbs
-    x, y, z = found.place.centers(size)[0]
+    x, y, z = free_place.place.centers(size)[0]
     poses = collision.poses([{}, *sampled_postures(landing_ranges(robot), 1500)[512:]])
     for side in (y, -y):
         # Postures outside of the search do not reach the module itself either.

@@ -47,52 +47,52 @@ def solved(request):
     return problem, lightest(problem)
 
 
-def by_pinocchio(problem, found, incidence):
+def by_pinocchio(problem, device, incidence):
     """Total of robot, wheels and all parts of the carriers by Pinocchio."""
     total = pinocchio.Inertia(problem.robot.mass, problem.robot.com, problem.robot.inertia)
-    parts = list(pieces(found))
-    for center, side in zip(found.centers, (1.0, -1.0), strict=True):
+    parts = list(pieces(device))
+    for center, side in zip(device.centers, (1.0, -1.0), strict=True):
         # The right module is the left one turned about the vertical.
         turn = -incidence if side > 0.0 else np.pi + incidence
         seat = pinocchio.SE3(pinocchio.utils.rotate("z", turn), center)
-        mass, spin, across = wheel_body(found)
+        mass, spin, across = wheel_body(device)
         total += seat.act(pinocchio.Inertia(mass, np.zeros(3), np.diag([across, spin, across])))
         for body in parts:
             total += seat.act(pinocchio.Inertia(body.mass, body.com, body.inertia))
     return total
 
 
-def pieces(found):
+def pieces(device):
     """All parts around its wheel."""
-    return carrier_parts(found.motor, found.gear, found.outer_radius, found.height)
+    return carrier_parts(device.motor, device.gear, device.outer_radius, device.height)
 
 
 def test_the_lightest_device_recomputed_from_its_dimensions(solved):
     """Masses, total inertia and the demands of all maneuvers."""
-    problem, found = solved
-    motor, gear = found.motor, found.gear
-    total = by_pinocchio(problem, found, found.incidence)
-    assert found.total.mass == pytest.approx(total.mass, rel=1e-12)
-    np.testing.assert_allclose(found.total.com, total.lever, rtol=0, atol=1e-12)
-    np.testing.assert_allclose(found.total.inertia, total.inertia, rtol=1e-9, atol=1e-12)
-    mass = sum(part.mass for part in pieces(found))
-    assert found.carrier.mass == pytest.approx(mass, rel=1e-12)
-    assert found.mass == pytest.approx(2.0 * (wheel_body(found)[0] + mass), rel=1e-12)
+    problem, device = solved
+    motor, gear = device.motor, device.gear
+    total = by_pinocchio(problem, device, device.incidence)
+    assert device.total.mass == pytest.approx(total.mass, rel=1e-12)
+    np.testing.assert_allclose(device.total.com, total.lever, rtol=0, atol=1e-12)
+    np.testing.assert_allclose(device.total.inertia, total.inertia, rtol=1e-9, atol=1e-12)
+    mass = sum(part.mass for part in pieces(device))
+    assert device.carrier.mass == pytest.approx(mass, rel=1e-12)
+    assert device.mass == pytest.approx(2.0 * (wheel_body(device)[0] + mass), rel=1e-12)
 
     share = rotor_share(motor.rotor_inertia, gear)
-    assert found.spin_inertia == pytest.approx(wheel_body(found)[1] + share, rel=1e-9)
+    assert device.spin_inertia == pytest.approx(wheel_body(device)[1] + share, rel=1e-9)
     line = drive_line(motor, gear, problem.bus_voltage)
     cap = problem.wheel_speed_max or np.inf
     line = replace(line, speed_max=min(line.speed_max, cap)).reserved()
-    by_name = {demand.source: demand for demand in found.demands}
+    by_name = {demand.source: demand for demand in device.demands}
     for maneuver in problem.requirement.maneuvers:
-        angle = found.incidence if maneuver.incidence is None else maneuver.incidence
-        inertia = TiltInertia.of(by_pinocchio(problem, found, angle).inertia)
+        angle = device.incidence if maneuver.incidence is None else maneuver.incidence
+        inertia = TiltInertia.of(by_pinocchio(problem, device, angle).inertia)
         slew = maneuver.slew(inertia, problem.requirement.standing_height)
         axes = module_axes(angle)[:2]
         task = WheelTask(slew.swept, slew.momentum, slew.duration, inertia, axes)
         drag = armature(motor.rotor_inertia, gear)
-        time = wheel_slew_time(task, found.spin_inertia, line, drag)
+        time = wheel_slew_time(task, device.spin_inertia, line, drag)
         demand = by_name[maneuver.name]
         assert demand.time_given == pytest.approx(slew.duration)
         assert demand.time_needed == pytest.approx(float(time), rel=1e-9)
@@ -102,11 +102,11 @@ def test_the_lightest_device_recomputed_from_its_dimensions(solved):
         assert 0.0 < demand.peak_speed <= float(line.speed_max) * (1.0 + 1e-12)
         assert 0.0 < demand.peak_torque <= float(line.torque_limit) * (1.0 + 1e-12)
     # As large as required within the residual of the fixed point, unless it is the smallest rim.
-    assert found.residual < 1e-9
-    if not {"h_min", "web"} & set(found.binding):
-        required = max(demand.spin_inertia for demand in found.demands)
-        assert found.spin_inertia == pytest.approx(required, rel=1e-8)
-        assert found.binding_maneuver in by_name
+    assert device.residual < 1e-9
+    if not {"h_min", "web"} & set(device.binding):
+        required = max(demand.spin_inertia for demand in device.demands)
+        assert device.spin_inertia == pytest.approx(required, rel=1e-8)
+        assert device.binding_maneuver in by_name
 
 
 def test_a_shaft_too_short_for_its_joint_is_not_chosen():
@@ -139,15 +139,15 @@ def test_a_rate_change_alone():
     """Momentum over twice the share of the reserved speed, L / (2 share W)."""
     problem = random_problem(9)
     requirement = replace(problem.requirement, maneuvers=(), rate_change=1.0)
-    found = lightest(replace(problem, requirement=requirement))
-    roll, pitch = found.demands
+    device = lightest(replace(problem, requirement=requirement))
+    roll, pitch = device.demands
     assert (roll.source, pitch.source) == ("rate change, roll", "rate change, pitch")
-    inertia = np.diag(found.total.inertia)[:2]
-    speed = 0.95 * min(found.line.no_load_speed, found.line.speed_max)
-    shares = np.array([np.sin(found.incidence), np.cos(found.incidence)])
+    inertia = np.diag(device.total.inertia)[:2]
+    speed = 0.95 * min(device.line.no_load_speed, device.line.speed_max)
+    shares = np.array([np.sin(device.incidence), np.cos(device.incidence)])
     expected = inertia / (2.0 * shares * speed)
     np.testing.assert_allclose([roll.spin_inertia, pitch.spin_inertia], expected, rtol=1e-9)
-    if not {"h_min", "web"} & set(found.binding):
+    if not {"h_min", "web"} & set(device.binding):
         assert roll.spin_inertia == pytest.approx(pitch.spin_inertia, rel=1e-3)
 
 
@@ -270,9 +270,9 @@ def test_maneuvers_with_modules_turned_by_hand_do_not_affect_the_incidence():
     flip = Flip(name="flip", gravity=1.62, incidence=0.0, jump_height=1.0, angle=-3.0, duration=2.0)
     motors = tuple(replace(motor, peak_torque=50.0) for motor in problem.motors)
     requirement = Requirement((roll, flip), None, 1.0, None, standing)
-    found = lightest(replace(problem, requirement=requirement, motors=motors))
-    assert {demand.source: demand.incidence for demand in found.demands}["flip"] == 0.0
-    assert found.incidence > 0.5  # Only roll is required at the design's own incidence.
+    device = lightest(replace(problem, requirement=requirement, motors=motors))
+    assert {demand.source: demand.incidence for demand in device.demands}["flip"] == 0.0
+    assert device.incidence > 0.5  # Only roll is required at the design's own incidence.
 
 
 def test_a_refusal_says_where_no_rim_fits():

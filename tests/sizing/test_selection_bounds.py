@@ -143,7 +143,7 @@ def test_more_inertia_and_smaller_shares_require_no_less(layout, kept, seed, cou
     )
     angle[:, 0, 0], angle[:, -1, 0] = 0.0, np.pi / 2.0
     shape = (n, len(intervals), 40)
-    whole = TiltInertia(
+    total = TiltInertia(
         robot[:, None, None, :] * rng.uniform(1.0, 1.1, (*shape, 2)),
         center[:, None, None] * rng.uniform(0.7, 1.3, shape),
     )
@@ -155,7 +155,7 @@ def test_more_inertia_and_smaller_shares_require_no_less(layout, kept, seed, cou
             bound_task(maneuver, required, least, intervals, layout), initial_speed=initial_speed
         )
         bound = smallest_spin_inertia(tasks, columns(drives.line), drives.armature[:, None])
-        task = wheel_task([maneuver], required, whole, 0.0, layout.axes(angle))
+        task = wheel_task([maneuver], required, total, 0.0, layout.axes(angle))
         task = replace(task, initial_speed=initial_speed)
         required_spin = smallest_spin_inertia(task, line, drives.armature[:, None, None])[0]
         finite = np.isfinite(required_spin)

@@ -101,8 +101,8 @@ def test_braking_uses_less_of_the_torque_speed_line_than_driving():
     """At rest tau / tau_s, and at full speed |300 / 650.4 - 0.4 / 1.4566|."""
     for part, share in ((slice(0, 2), 0.73586), (slice(2, 4), 0.4 / 1.4566)):
         motion = SampledMotion(**{name: values[part] for name, values in vars(turn()).items()})
-        found = by_name(motion, driven_wheel())["voltage line"]
-        assert found.demand == pytest.approx(share, rel=1e-4)
+        margin = by_name(motion, driven_wheel())["voltage line"]
+        assert margin.demand == pytest.approx(share, rel=1e-4)
 
 
 def test_no_stress_without_a_poisson_ratio():
@@ -125,13 +125,13 @@ def test_a_device_at_rest_has_no_demand():
 
 def test_the_worst_of_each_kind_names_its_maneuver():
     drop, flip = (margins(turn(*values), AXES, driven_wheel()) for values in ((0.4,), (0.2, 500.0)))
-    found = {margin.name: margin for margin in worst([("drop", drop), ("back-flip", flip)])}
-    assert [margin.name for margin in drop] == list(found)
-    assert found["motor torque"].scenario == "drop"
-    assert found["wheel speed"].scenario == "back-flip"
-    assert found["stored energy"].scenario == "back-flip"
-    assert found["motor torque"].demand == 0.4
-    assert found["hoop stress"].scenario == ""
+    worst_margins = {margin.name: margin for margin in worst([("drop", drop), ("back-flip", flip)])}
+    assert [margin.name for margin in drop] == list(worst_margins)
+    assert worst_margins["motor torque"].scenario == "drop"
+    assert worst_margins["wheel speed"].scenario == "back-flip"
+    assert worst_margins["stored energy"].scenario == "back-flip"
+    assert worst_margins["motor torque"].demand == 0.4
+    assert worst_margins["hoop stress"].scenario == ""
 
 
 def test_the_worst_is_the_largest_share_of_its_capacity():

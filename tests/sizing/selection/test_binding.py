@@ -4,11 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from rims import STEEL
+from rims import STEEL, envelope_with
 
 from ocs_design.actuation.fasteners import LIGAMENT
 from ocs_design.parts.module import Printed
-from ocs_design.requirement.device_sections import Envelope
 from ocs_design.sizing.bound.rim_problem import RimProblem, limits_with_web
 from ocs_design.sizing.lightest_module import (
     HOUSING,
@@ -17,10 +16,9 @@ from ocs_design.sizing.lightest_module import (
     lightest_module_at,
 )
 
-ENVELOPE = Envelope(
-    outer_radius_max=0.03, inner_radius_min=0.005, height_max=0.01, height_min=0.002,
-    wall_min=0.001, mass_max=np.inf, stress_safety=2.0,
-)  # fmt: skip
+ENVELOPE = envelope_with(
+    0.03, 0.01, inner_radius_min=0.005, height_min=0.002, wall_min=0.001, stress_safety=2.0
+)
 LIMITS = RimProblem(7.11e-5, ENVELOPE, STEEL, 100.0).limits
 SHELL = Printed(mount_reach=0.0)
 MODULE = lightest_module(np.array([7.11e-5]), LIMITS, SHELL)

@@ -36,10 +36,11 @@ def test_where_no_device_wins_at_its_own_incidence_the_lightest_there_leads(monk
     def choose(problem):
         """All devices of a problem, lightest first."""
         names = {motor.name for motor in problem.motors} & set(angles) or set(angles)
-        found = sorted((device(name, problem.incidence) for name in names), key=lambda d: d.mass)
-        return replace(lightest, ranking=tuple(found), reasons=tuple)
+        devices = (device(name, problem.incidence) for name in names)
+        ranking = tuple(sorted(devices, key=lambda device: device.mass))
+        return replace(lightest, ranking=ranking, reasons=tuple)
 
-    def settled(problem, winner, criterion):
+    def own_incidence(problem, winner, criterion):
         """As the criterion would have it; what wins first, neither of both, leads to a's."""
         if winner.motor.name not in angles:
             return angles["a"], None
@@ -48,9 +49,9 @@ def test_where_no_device_wins_at_its_own_incidence_the_lightest_there_leads(monk
 
     lightest = select(replace(problem, incidence=0.5))
     monkeypatch.setattr(selecting, "select", choose)
-    monkeypatch.setattr(selecting, "at_own_incidence", settled)
-    found = select_by(problem, Criterion.EQUAL_RATE)
-    assert (found.best.motor.name, found.best.incidence) == ("a", 0.4)
-    assert found.best.mass == pytest.approx(base.mass + 0.10)
-    (other,) = found.rejections
+    monkeypatch.setattr(selecting, "at_own_incidence", own_incidence)
+    selection = select_by(problem, Criterion.EQUAL_RATE)
+    assert (selection.best.motor.name, selection.best.incidence) == ("a", 0.4)
+    assert selection.best.mass == pytest.approx(base.mass + 0.10)
+    (other,) = selection.rejections
     assert (other.motor, other.reason) == ("b", Reason.INCIDENCE)

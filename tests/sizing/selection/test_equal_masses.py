@@ -33,11 +33,11 @@ def problem_of(steels, **changes):
 
 @pytest.mark.parametrize("incidence", [0.6, pytest.param(None, marks=pytest.mark.slow)])
 def test_the_stronger_steel_leads_the_ranking(steels, incidence):
-    found = select(problem_of(steels, incidence=incidence))
-    assert found.best.material.name == "strong"
+    selection = select(problem_of(steels, incidence=incidence))
+    assert selection.best.material.name == "strong"
     twins = [
         (one.material.name, other.material.name)
-        for one, other in zip(found.ranking, found.ranking[1:], strict=False)
+        for one, other in zip(selection.ranking, selection.ranking[1:], strict=False)
         if other.mass == pytest.approx(one.mass, rel=10.0 * ROUNDING)
     ]
     assert twins
@@ -51,8 +51,8 @@ def test_the_stronger_steel_leads_at_the_incidence_of_a_criterion(steels):
 
 
 def test_the_stronger_steel_is_found_by_an_unranked_search(steels):
-    found = search(problem_of(steels, incidence=0.6), ranked=False)
-    assert steels[found.ranking[0].parts[2]].name == "strong"
+    result = search(problem_of(steels, incidence=0.6), ranked=False)
+    assert steels[result.ranking[0].parts[2]].name == "strong"
 
 
 @pytest.mark.slow
@@ -80,5 +80,5 @@ def test_equal_masses_are_within_a_tolerance_of_the_lightest():
     step = 0.6 * SAME_MASS
     masses = [1.0, 1.0 + step, 1.0 + 2.0 * step]
     entries = [SimpleNamespace(mass=mass, rank=-mass) for mass in masses]
-    found = lightest_first(entries, lambda each: each.mass, lambda each: each.rank)
-    assert [each.mass for each in found] == [masses[1], masses[0], masses[2]]
+    result = lightest_first(entries, lambda each: each.mass, lambda each: each.rank)
+    assert [each.mass for each in result] == [masses[1], masses[0], masses[2]]

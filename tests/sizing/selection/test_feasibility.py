@@ -82,14 +82,14 @@ def test_each_change_is_sufficient_and_nearly_the_smallest(seed):
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", SEEDS)
 def test_no_device_is_lighter_than_its_own_bound(seed):
-    """Nor are its wheels smaller: of all that the search settles."""
-    found = search(random_problem(seed))
-    found.refine(refine)
-    for settled in found.batches:
-        feasible = settled.point.feasible
-        assert (settled.mass >= settled.guess.mass)[feasible].all()
-        assert (settled.point.spin_inertia >= settled.guess.spin_inertia)[feasible].all()
-    assert any(settled.point.feasible.any() for settled in found.batches)
+    """Nor are its wheels smaller, for all devices that the search solves."""
+    state = search(random_problem(seed))
+    state.refine(refine)
+    for batch in state.batches:
+        feasible = batch.point.feasible
+        assert (batch.mass >= batch.guess.mass)[feasible].all()
+        assert (batch.point.spin_inertia >= batch.guess.spin_inertia)[feasible].all()
+    assert any(batch.point.feasible.any() for batch in state.batches)
 
 
 @pytest.mark.slow
@@ -99,9 +99,9 @@ def test_no_device_is_lighter_than_its_own_bound(seed):
 def test_an_unranked_search_finds_the_first_of_the_ranking(seed):
     """To 0.1 % at a specified incidence; heavier devices than the mass limit are not searched."""
     problem = replace(random_problem(seed), incidence=0.6)
-    ranked, found = search(problem), search(problem, ranked=False)
-    assert bool(found.ranking) == bool(ranked.ranking)
-    assert found.lightest == pytest.approx(ranked.lightest, rel=1e-3)
-    assert not search(problem, 0.5 * found.lightest, ranked=False).ranking
-    near = search(problem, 1.01 * found.lightest, ranked=False)
-    assert near.lightest == pytest.approx(found.lightest, rel=1e-9)
+    ranked, unranked = search(problem), search(problem, ranked=False)
+    assert bool(unranked.ranking) == bool(ranked.ranking)
+    assert unranked.lightest == pytest.approx(ranked.lightest, rel=1e-3)
+    assert not search(problem, 0.5 * unranked.lightest, ranked=False).ranking
+    limited = search(problem, 1.01 * unranked.lightest, ranked=False)
+    assert limited.lightest == pytest.approx(unranked.lightest, rel=1e-9)

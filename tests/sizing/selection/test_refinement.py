@@ -57,12 +57,12 @@ def test_the_start_does_not_matter(seed, factors, turn):
     problem, chosen = solved_case(seed)
     turn = turn if problem.incidence is None else 0.0
     candidates = candidates_of(problem, chosen)
-    found = refine(candidates, start_near(chosen, factors, turn))
-    assert found.feasible.all()
-    mass = 2.0 * (found.shapes.mass[0] + candidates.drives.mass[0])
+    refined = refine(candidates, start_near(chosen, factors, turn))
+    assert refined.feasible.all()
+    mass = 2.0 * (refined.shapes.mass[0] + candidates.drives.mass[0])
     assert mass == pytest.approx(chosen.mass, rel=1e-9)
-    assert found.margin[0] >= 1.0 - 1e-9
-    assert found.residual[0] < 1e-9
+    assert refined.margin[0] >= 1.0 - 1e-9
+    assert refined.residual[0] < 1e-9
 
 
 @pytest.mark.slow
@@ -72,12 +72,12 @@ def test_the_number_of_threads_does_not_matter(seed):
     problem, chosen = solved_case(seed)
     candidates = candidates_of(problem, chosen)
     turn = 0.01 if problem.incidence is None else 0.0
-    found = []
+    shapes = []
     for threads in (1, 2, 4):
         with threadpool_limits(limits=threads, user_api="blas"):
-            found.append(refine(candidates, start_near(chosen, (0.97, 0.98, 0.95), turn)).shapes)
+            shapes.append(refine(candidates, start_near(chosen, (0.97, 0.98, 0.95), turn)).shapes)
     for name in ("inner_radius", "outer_radius", "height"):
-        assert len({getattr(shapes, name).item() for shapes in found}) == 1, name
+        assert len({getattr(shape, name).item() for shape in shapes}) == 1, name
 
 
 def test_at_a_discontinuity_it_stops_early_with_the_best_point(monkeypatch):
@@ -95,10 +95,10 @@ def test_at_a_discontinuity_it_stops_early_with_the_best_point(monkeypatch):
 
     start = coordinates(chosen.outer_radius, chosen.height, chosen.inner_radius, chosen.incidence)
     monkeypatch.setattr(Programme, "evaluation", discontinuous)
-    found = lightest(programme, start)
+    solution = lightest(programme, start)
     assert len(points) < 20
-    np.testing.assert_array_equal(found.point, start)
-    assert found.violation == pytest.approx(1e-4)
+    np.testing.assert_array_equal(solution.point, start)
+    assert solution.violation == pytest.approx(1e-4)
 
 
 def test_an_infeasible_candidate_stays_infeasible():
@@ -114,7 +114,7 @@ def test_specified_incidence_and_spin_inertia_are_kept():
     problem, chosen = solved_case(2)
     more = replace(problem.requirement, spin_inertia=1.1 * chosen.spin_inertia)
     specified = replace(problem, incidence=chosen.incidence, requirement=more)
-    found = refine(candidates_of(specified, chosen), start_near(chosen, (0.99, 1.0, 1.0), 0.0))
-    assert found.feasible.all()
-    assert found.angle[0] == chosen.incidence
-    assert found.spin_inertia[0] == pytest.approx(1.1 * chosen.spin_inertia, rel=1e-9)
+    refined = refine(candidates_of(specified, chosen), start_near(chosen, (0.99, 1.0, 1.0), 0.0))
+    assert refined.feasible.all()
+    assert refined.angle[0] == chosen.incidence
+    assert refined.spin_inertia[0] == pytest.approx(1.1 * chosen.spin_inertia, rel=1e-9)

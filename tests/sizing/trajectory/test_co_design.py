@@ -70,14 +70,14 @@ def test_symbolic_and_numeric_device_agree(seed):
     cases += [(point, 1.5 * DEFECT_MAX, 1e-3) for point in between]
     for point, inertia_tolerance, mass_tolerance in cases:
         dimensions = np.append(point, rng.uniform(0.0, 1.57))
-        found = device.at(*dimensions)
+        result = device.at(*dimensions)
         inertia, axes, spin_inertia, armature, mass = plant(dimensions)
-        atol = inertia_tolerance * found.total.inertia.max()
-        np.testing.assert_allclose(inertia, found.total.inertia, rtol=0, atol=atol)
+        atol = inertia_tolerance * result.total.inertia.max()
+        np.testing.assert_allclose(inertia, result.total.inertia, rtol=0, atol=atol)
         np.testing.assert_allclose(axes, module_axes(dimensions[2]), rtol=0, atol=1e-15)
-        assert float(spin_inertia) == pytest.approx(found.spin_inertia, rel=1e-12)
+        assert float(spin_inertia) == pytest.approx(result.spin_inertia, rel=1e-12)
         assert float(armature) == selected.drive.armature
-        assert float(mass) * selected.mass == pytest.approx(found.mass, rel=mass_tolerance)
+        assert float(mass) * selected.mass == pytest.approx(result.mass, rel=mass_tolerance)
 
 
 def with_selected_wheels(problem, selected):
@@ -89,28 +89,28 @@ def with_selected_wheels(problem, selected):
 def test_the_search_starts_at_the_selected_device(seed):
     """It may be slightly lighter, as flatter modules of the selected radius are allowed."""
     problem, selected = problem_and_selection(seed)
-    found = with_selected_wheels(problem, selected)
-    assert found.spin_inertia == pytest.approx(selected.spin_inertia, rel=1e-12)
-    assert found.outer_radius == pytest.approx(selected.outer_radius, rel=1e-12)
-    assert found.mass <= selected.mass * (1.0 + 1e-9)
-    assert found.mass == pytest.approx(selected.mass, rel=1e-4)
+    result = with_selected_wheels(problem, selected)
+    assert result.spin_inertia == pytest.approx(selected.spin_inertia, rel=1e-12)
+    assert result.outer_radius == pytest.approx(selected.outer_radius, rel=1e-12)
+    assert result.mass <= selected.mass * (1.0 + 1e-9)
+    assert result.mass == pytest.approx(selected.mass, rel=1e-4)
 
 
 def test_the_co_design_is_never_heavier_and_explains_its_result(solved):
-    _, selected, found = solved
-    assert found.status == "Solve_Succeeded"
-    assert found.device.mass <= selected.mass
-    assert found.adopted == (found.gain > LEAST_GAIN)
-    assert found.note.count(".") <= 1
-    assert ("selection stands" in found.note) != found.adopted
+    _, selected, result = solved
+    assert result.status == "Solve_Succeeded"
+    assert result.device.mass <= selected.mass
+    assert result.adopted == (result.gain > LEAST_GAIN)
+    assert result.note.count(".") <= 1
+    assert ("selection stands" in result.note) != result.adopted
 
 
 def test_its_maneuvers_are_feasible_on_the_fine_grid(solved):
-    problem, selected, found = solved
-    assert len(found.flights) == len(problem.requirement.maneuvers)
+    problem, selected, result = solved
+    assert len(result.flights) == len(problem.requirement.maneuvers)
     line, standing = selected.line.reserved(), problem.requirement.standing_height
-    for maneuver, flight in zip(problem.requirement.maneuvers, found.flights, strict=True):
-        angle = found.device.incidence if maneuver.incidence is None else maneuver.incidence
+    for maneuver, flight in zip(problem.requirement.maneuvers, result.flights, strict=True):
+        angle = result.device.incidence if maneuver.incidence is None else maneuver.incidence
         wheels = Gyrostat(np.eye(3), module_axes(angle), 1.0)
         assert flight.violation < 1e-6
         assert attitude_error(maneuver.boundary(standing), flight.trajectory) < 1e-4
@@ -120,8 +120,8 @@ def test_its_maneuvers_are_feasible_on_the_fine_grid(solved):
 
 
 def test_its_rim_is_within_the_limits(solved):
-    _, selected, found = solved
-    limits, rim = selected.limits, found.device
+    _, selected, result = solved
+    limits, rim = selected.limits, result.device
     nu, slack = limits.poisson_ratio, 1.0 + 1e-9
     assert rim.outer_radius <= limits.outer_radius_max * slack
     assert rim.inner_radius * slack >= limits.inner_radius_min
@@ -133,12 +133,12 @@ def test_its_rim_is_within_the_limits(solved):
 
 
 def test_an_adopted_device_is_consistent(solved):
-    problem, selected, found = solved
-    device = found.device
-    if not found.adopted:
+    problem, selected, result = solved
+    device = result.device
+    if not result.adopted:
         assert device is selected
         return
-    assert device.mass == pytest.approx(found.found_mass, rel=1e-12)
+    assert device.mass == pytest.approx(result.found_mass, rel=1e-12)
     spin = wheel_body(device)[1] + device.drive.rotor_inertia
     assert device.spin_inertia == pytest.approx(spin, rel=1e-9)
     bodies = (device.wheel, device.carrier)
@@ -153,9 +153,9 @@ def test_an_adopted_device_is_consistent(solved):
 
 def test_roll_and_pitch_at_once_gain_in_3d():
     """The closed form fixes the axis and the ratio of the wheels; in 3-D both are free."""
-    found = co_designed(ROLL_AND_PITCH)
-    assert found.adopted
-    assert found.gain > 0.007
+    result = co_designed(ROLL_AND_PITCH)
+    assert result.adopted
+    assert result.gain > 0.007
 
 
 def test_a_rate_change_gains_nothing():
@@ -168,10 +168,10 @@ def test_a_rate_change_gains_nothing():
 def test_a_specified_spin_inertia_is_kept():
     problem, selected = problem_and_selection(ROLL_AND_PITCH)
     specified = replace(problem.requirement, spin_inertia=selected.spin_inertia)
-    found = co_design(replace(problem, requirement=specified), selected)
-    assert not found.adopted
-    assert found.device is selected
-    assert "is specified" in found.note
+    result = co_design(replace(problem, requirement=specified), selected)
+    assert not result.adopted
+    assert result.device is selected
+    assert "is specified" in result.note
 
 
 def test_limits_that_leave_one_wheel_keep_the_selection():
@@ -183,19 +183,19 @@ def test_limits_that_leave_one_wheel_keep_the_selection():
         "height_min": selected.height,
         "wall_min": 0.999 * (selected.outer_radius - selected.inner_radius),
     }
-    found = co_design(problem, replace(selected, limits=replace(selected.limits, **size)))
-    assert not found.adopted
-    assert "no choice" in found.note
+    result = co_design(problem, replace(selected, limits=replace(selected.limits, **size)))
+    assert not result.adopted
+    assert "no choice" in result.note
 
 
 def test_a_failure_of_ipopt_keeps_the_selection(monkeypatch):
     monkeypatch.setattr(program, "ITERATIONS_MAX", 3)
     _, selected = problem_and_selection(ROLL_AND_PITCH)
-    found = co_design(*problem_and_selection(ROLL_AND_PITCH))
-    assert not found.adopted
-    assert found.status == "Maximum_Iterations_Exceeded"
-    assert found.status in found.note
-    assert found.device is selected
+    result = co_design(*problem_and_selection(ROLL_AND_PITCH))
+    assert not result.adopted
+    assert result.status == "Maximum_Iterations_Exceeded"
+    assert result.status in result.note
+    assert result.device is selected
 
 
 @pytest.mark.exhaustive
@@ -208,9 +208,9 @@ def test_the_coarse_mesh_counts_where_the_finer_one_fails(monkeypatch):
         return refined(motion, intervals)
 
     monkeypatch.setattr(Motion, "refined", second_pass)
-    found = co_design(*problem_and_selection(ROLL_AND_PITCH))
-    assert found.status == "Solve_Succeeded"
-    assert found.adopted
+    result = co_design(*problem_and_selection(ROLL_AND_PITCH))
+    assert result.status == "Solve_Succeeded"
+    assert result.adopted
 
 
 @pytest.mark.exhaustive

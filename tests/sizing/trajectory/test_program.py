@@ -67,8 +67,8 @@ def solved(request):
     gyrostat, maneuver = CASES[name]
     if wheels == "least":
         # On equal intervals the means at steps of the torque cancel.
-        found = smallest_wheels(gyrostat, boundary_of(maneuver), passes=(24,))
-        return found.gyrostat, boundary_of(maneuver), found
+        planned = smallest_wheels(gyrostat, boundary_of(maneuver), passes=(24,))
+        return planned.gyrostat, boundary_of(maneuver), planned
     return gyrostat, boundary_of(maneuver), _planned(gyrostat, maneuver)
 
 
@@ -182,11 +182,11 @@ def test_least_effort_without_limits_is_a_parabola_of_angle():
     """A double integrator rest to rest: torque linear in time, effort 12 (J theta / T^1.5)^2."""
     gyrostat = body(0.0, 1e-4, DIAGONAL)
     free = DriveLine(np.inf, 1e5, np.inf, np.inf)
-    found = _planned(gyrostat, drop(30.0), free)
+    planned = _planned(gyrostat, drop(30.0), free)
     reduced = DIAGONAL[1, 1] - 2.0 * gyrostat.spin_inertia
     share = reduced * np.radians(30.0) / 2.0
-    assert _effort(found) == pytest.approx(2.0 * 12.0 * share**2 / FALL**3, rel=1e-6)
-    torque = found.trajectory.wheel_torque[:, 0]
+    assert _effort(planned) == pytest.approx(2.0 * 12.0 * share**2 / FALL**3, rel=1e-6)
+    torque = planned.trajectory.wheel_torque[:, 0]
     np.testing.assert_allclose(torque, np.linspace(torque[0], -torque[0], len(torque)), atol=1e-6)
 
 
@@ -199,30 +199,30 @@ def _effort(planned):
 
 def test_a_mechanical_speed_limit_is_kept():
     slow = DriveLine(1.4566, 650.4, 1.0, 480.0)
-    found = _planned(body(FORTY), drop(30.0), slow)
-    assert not found.failure
-    assert 479.0 < np.abs(found.trajectory.wheel_speed).max() < 480.01
+    planned = _planned(body(FORTY), drop(30.0), slow)
+    assert not planned.failure
+    assert 479.0 < np.abs(planned.trajectory.wheel_speed).max() < 480.01
 
 
 @pytest.mark.parametrize("weak", [{"torque_limit": 0.3}, {"power_max": 10.0}])
 def test_weak_drives_have_no_solution(weak):
-    found = _planned(body(FORTY), drop(30.0), replace(EC_45_FLAT, **weak))
-    assert not found.solution.solved
-    assert found.failure.startswith("no solution within the limits in ")
+    planned = _planned(body(FORTY), drop(30.0), replace(EC_45_FLAT, **weak))
+    assert not planned.solution.solved
+    assert planned.failure.startswith("no solution within the limits in ")
 
 
 def test_an_uncontrolled_axis_is_left_free():
     """At alpha = 0 roll is not changed, and pitch ends as required."""
-    found = _planned(body(0.0, inertia=FULL), drop(20.0, 15.0))
-    assert not found.failure
-    assert found.trajectory.vertical[-1, 0] == pytest.approx(0.0, abs=1e-6)
-    assert np.degrees(attitude_error(boundary_of(drop(20.0, 15.0)), found.trajectory)) > 10.0
+    planned = _planned(body(0.0, inertia=FULL), drop(20.0, 15.0))
+    assert not planned.failure
+    assert planned.trajectory.vertical[-1, 0] == pytest.approx(0.0, abs=1e-6)
+    assert np.degrees(attitude_error(boundary_of(drop(20.0, 15.0)), planned.trajectory)) > 10.0
 
 
 def test_a_level_start_needs_no_torque():
-    found = _planned(body(FORTY), drop(0.0))
-    assert not found.failure
-    assert _effort(found) < 1e-12
+    planned = _planned(body(FORTY), drop(0.0))
+    assert not planned.failure
+    assert _effort(planned) < 1e-12
 
 
 def test_a_push_that_outlasts_the_flight_is_refused():
@@ -264,9 +264,9 @@ def test_a_tumbling_body_with_spinning_wheels_comes_to_rest():
         rate=np.array([0.3, -0.4, 0.2]),
         wheel_speed=np.array([50.0, -80.0, 20.0]),
     )
-    found = least_power_turn(start, gyrostat, EC_45_FLAT)
-    assert not found.failure
-    path = found.trajectory
+    planned = least_power_turn(start, gyrostat, EC_45_FLAT)
+    assert not planned.failure
+    path = planned.trajectory
     assert attitude_error(start, path) < 1e-5
     np.testing.assert_allclose(path.rate[0], start.rate, rtol=1e-12)
     np.testing.assert_allclose(path.wheel_speed[0], start.wheel_speed, rtol=1e-12)
@@ -285,9 +285,9 @@ def _power(path, line=EC_45_FLAT):
 def test_a_power_limit_reduces_the_peak_power(name):
     gyrostat, maneuver = CASES[name]
     before = np.abs(_power(_planned(gyrostat, maneuver).trajectory)).max()
-    found = _planned(gyrostat, maneuver, replace(EC_45_FLAT, power_max=before))
-    assert found.failure == ""
-    assert np.abs(_power(found.trajectory)).max() < 0.95 * before
+    planned = _planned(gyrostat, maneuver, replace(EC_45_FLAT, power_max=before))
+    assert planned.failure == ""
+    assert np.abs(_power(planned.trajectory)).max() < 0.95 * before
 
 
 def test_power_is_a_limit_at_every_sample():
@@ -330,8 +330,8 @@ def test_four_wheels_without_a_plan_use_that_of_an_equivalent_pair(monkeypatch):
     """A double pair was once enlarged for a turn that two lighter wheels could make."""
 
     def failing_solve(turns, *arguments):
-        found = solve(turns, *arguments)
-        return replace(found, solved=turns[0].gyrostat.axes.shape[1] < 4)
+        planned = solve(turns, *arguments)
+        return replace(planned, solved=turns[0].gyrostat.axes.shape[1] < 4)
 
     monkeypatch.setattr("ocs_design.sizing.trajectory.plans.solve", failing_solve)
     pair = body(np.radians(30.0), spin_inertia=1.4e-4, armature=1e-6)
@@ -342,9 +342,9 @@ def test_four_wheels_without_a_plan_use_that_of_an_equivalent_pair(monkeypatch):
         torque_limit=EC_45_FLAT.torque_limit / 2.0,
     )
     turn = boundary_of(drop(20.0, 10.0))
-    found, expected = least_power_turn(turn, four, weak), least_power_turn(turn, pair, EC_45_FLAT)
-    assert not found.failure
-    path = found.trajectory
+    planned, expected = least_power_turn(turn, four, weak), least_power_turn(turn, pair, EC_45_FLAT)
+    assert not planned.failure
+    path = planned.trajectory
     assert attitude_error(turn, path) == pytest.approx(attitude_error(turn, expected.trajectory))
     np.testing.assert_array_equal(path.wheel_speed, np.tile(expected.trajectory.wheel_speed, 2))
     np.testing.assert_allclose(_momentum(four, path), 0.0, atol=1e-6)

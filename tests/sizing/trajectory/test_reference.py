@@ -24,9 +24,9 @@ FORTY = np.radians(40.0)
 
 @pytest.mark.parametrize("kept", [1.0, 1.05])
 def test_a_reference_leaves_margins_for_feedback_and_reserve(kept):
-    found = reference(body(FORTY, 1.4e-4), EC_45_FLAT, drop(30.0), STANDING, kept)
-    path, line = found.trajectory, EC_45_FLAT.reserved(PLANNED / kept)
-    assert found.note == path.note == ""
+    planned = reference(body(FORTY, 1.4e-4), EC_45_FLAT, drop(30.0), STANDING, kept)
+    path, line = planned.trajectory, EC_45_FLAT.reserved(PLANNED / kept)
+    assert planned.note == path.note == ""
     assert limit_violation(path.wheel_speed, path.wheel_torque, line) < 1e-6
     assert (np.diff(path.time) > 0.0).all()
     np.testing.assert_allclose(np.linalg.norm(path.vertical, axis=1), 1.0, rtol=1e-9)
@@ -34,25 +34,25 @@ def test_a_reference_leaves_margins_for_feedback_and_reserve(kept):
 
 def test_a_reference_that_needs_the_whole_drive_says_so():
     """A wheel between the smallest one for the full drive and that with its margin."""
-    found = reference(body(FORTY, 9.2e-5), EC_45_FLAT, drop(30.0), STANDING)
-    assert f"{PLANNED:.1%}" in found.note
-    path = found.trajectory
-    assert path.note == found.note
+    planned = reference(body(FORTY, 9.2e-5), EC_45_FLAT, drop(30.0), STANDING)
+    assert f"{PLANNED:.1%}" in planned.note
+    path = planned.trajectory
+    assert path.note == planned.note
     used = limit_violation(path.wheel_speed, path.wheel_torque, EC_45_FLAT.reserved(PLANNED))
     assert used == pytest.approx(1.0 / PLANNED - 1.0, abs=0.01)
     assert limit_violation(path.wheel_speed, path.wheel_torque, EC_45_FLAT) < 1e-6
 
 
 def test_infeasible_turns_have_no_reference():
-    found = reference(body(FORTY, 6e-5), EC_45_FLAT, drop(30.0), STANDING)
-    assert found.trajectory is None
-    assert "no optimal turn was found (no solution within the limits in" in found.note
+    planned = reference(body(FORTY, 6e-5), EC_45_FLAT, drop(30.0), STANDING)
+    assert planned.trajectory is None
+    assert "no optimal turn was found (no solution within the limits in" in planned.note
 
 
 def test_a_push_has_no_reference():
-    found = reference(body(FORTY), EC_45_FLAT, PUSH, STANDING)
-    assert found.trajectory is None
-    assert "feedback" in found.note
+    planned = reference(body(FORTY), EC_45_FLAT, PUSH, STANDING)
+    assert planned.trajectory is None
+    assert "feedback" in planned.note
 
 
 @pytest.mark.slow
@@ -60,9 +60,9 @@ def test_a_turn_that_is_too_fast_is_refused_with_a_feasible_time():
     """The theory's table has 2 s for these wheels, within 5 % of the named time."""
     yaw = TurnTo(name="yaw", jump_height=1.0, yaw=np.pi / 2.0, duration=1.7)
     gyrostat = body(np.radians(39.0), 1.05e-4, DIAGONAL)
-    found = reference(gyrostat, EC_45_FLAT, yaw, STANDING)
-    assert found.trajectory is None
-    match = re.fullmatch(r".* this turn in 1.7 s: they need (.*) s", found.note)
+    planned = reference(gyrostat, EC_45_FLAT, yaw, STANDING)
+    assert planned.trajectory is None
+    match = re.fullmatch(r".* this turn in 1.7 s: they need (.*) s", planned.note)
     assert match
     assert 1.0 / 1.05 < 2.0 / float(match[1]) < 1.05
 
@@ -77,18 +77,18 @@ def test_a_plan_survives_the_failure_of_any_drive_at_its_start(layout):
     axes = Layout(layout).axes(ISOTROPIC)
     for inertia, survives in ((4e-4, True), (2e-4, False)):
         gyrostat = Gyrostat(FULL, axes, inertia)
-        found = reference(gyrostat, EC_45_FLAT, BACK_FLIP, STANDING, one_stops=True)
+        planned = reference(gyrostat, EC_45_FLAT, BACK_FLIP, STANDING, one_stops=True)
         worst = 0.0
         for lost in range(axes.shape[1]):
             left = np.delete(axes, lost, axis=1)
             speed, torque = (
                 np.linalg.lstsq(left, axes @ each.T, rcond=None)[0].T
-                for each in (found.trajectory.wheel_speed, found.trajectory.wheel_torque)
+                for each in (planned.trajectory.wheel_speed, planned.trajectory.wheel_torque)
             )
             worst = max(worst, limit_violation(speed, torque, EC_45_FLAT.reserved(PLANNED)))
         assert (worst < 1e-6) == survives
-        assert (found.note == "") == survives
-        assert (found.share <= PLANNED) == survives
+        assert (planned.note == "") == survives
+        assert (planned.share <= PLANNED) == survives
 
 
 @pytest.mark.slow
@@ -130,19 +130,19 @@ def test_the_heading_loop_of_a_tall_body_leaves_larger_margins():
     yaw = TurnTo(name="yaw", jump_height=1.0, yaw=np.pi / 2.0, duration=4.0, gravity=1.62)
     axes = Layout(LayoutName.PAIR).axes(np.radians(45.0))
     line = DriveLine(25.0, 600.0, 7.4, np.inf, np.inf)
-    found = {}
+    planned = {}
     for shape in ((3.2, 3.2, 0.9), (0.9, 0.9, 3.2)):
         for inertia in (2e-2, 8e-3):
             gyrostat = Gyrostat(np.diag(shape), axes, inertia)
-            found[shape[0], inertia] = reference(gyrostat, line, yaw, STANDING)
-    assert found[3.2, 2e-2].share == TALL_SHARE_MAX
-    assert found[0.9, 2e-2].share == GENTLE_SHARES[0]
-    assert found[3.2, 2e-2].missing_demand(yaw.end) is None
-    scarce = found[3.2, 8e-3]
+            planned[shape[0], inertia] = reference(gyrostat, line, yaw, STANDING)
+    assert planned[3.2, 2e-2].share == TALL_SHARE_MAX
+    assert planned[0.9, 2e-2].share == GENTLE_SHARES[0]
+    assert planned[3.2, 2e-2].missing_demand(yaw.end) is None
+    scarce = planned[3.2, 8e-3]
     assert scarce.trajectory is not None
     assert (
         scarce.missing_demand(yaw.end)
         == max(EXTRA_DEMAND, scarce.share / TALL_SHARE_MAX)
         > EXTRA_DEMAND
     )
-    assert found[0.9, 8e-3].missing_demand(yaw.end) is None
+    assert planned[0.9, 8e-3].missing_demand(yaw.end) is None

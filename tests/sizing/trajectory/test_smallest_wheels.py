@@ -49,10 +49,10 @@ def _closed_form(roll, pitch, incidence, duration=FALL):
 def test_about_pitch_it_is_the_closed_form(degrees, maneuver, excess):
     """No plan can be below it; the mesh adds at most 0.03 %."""
     incidence, turn = np.radians(degrees), boundary_of(maneuver)
-    found = smallest_wheels(body(incidence, 1.2e-4, DIAGONAL), turn)
+    smallest = smallest_wheels(body(incidence, 1.2e-4, DIAGONAL), turn)
     best = _closed_form(0.0, np.degrees(abs(turn.angle)), incidence, turn.duration)
-    assert found.solution.solved
-    assert 1.0 - 1e-7 < found.gyrostat.spin_inertia / best < 1.0 + excess
+    assert smallest.solution.solved
+    assert 1.0 - 1e-7 < smallest.gyrostat.spin_inertia / best < 1.0 + excess
 
 
 @pytest.mark.slow
@@ -79,11 +79,11 @@ def test_it_is_below_the_figures_for_piecewise_constant_torques(
     )
     assert constant == pytest.approx(specified, rel=1e-3)
     guess = body(incidence, 1.2e-4, DIAGONAL)
-    found = smallest_wheels(guess, boundary_of(drop(pitch, roll)), free_incidence=free)
-    assert found.solution.solved
-    assert 0.98 < found.gyrostat.spin_inertia / specified < 0.99
-    assert np.degrees(found.incidence) == pytest.approx(degrees, abs=0.1)
-    assert found.violation < 1e-6
+    smallest = smallest_wheels(guess, boundary_of(drop(pitch, roll)), free_incidence=free)
+    assert smallest.solution.solved
+    assert 0.98 < smallest.gyrostat.spin_inertia / specified < 0.99
+    assert np.degrees(smallest.incidence) == pytest.approx(degrees, abs=0.1)
+    assert smallest.violation < 1e-6
 
 
 def _with_constant_torques(tilt, axes, steps=40):
@@ -140,13 +140,13 @@ def _with_constant_torques(tilt, axes, steps=40):
 
 @pytest.mark.slow
 def test_a_push_requires_more_than_its_momentum():
-    found = smallest_wheels(body(np.radians(35.0), 1.2e-4, DIAGONAL), boundary_of(PUSH))
-    assert found.solution.solved
+    smallest = smallest_wheels(body(np.radians(35.0), 1.2e-4, DIAGONAL), boundary_of(PUSH))
+    assert smallest.solution.solved
     roll, pitch, _ = np.array(PUSH.torque) * PUSH.duration
     shares = np.sin(np.radians(35.0)), np.cos(np.radians(35.0))
     least = (roll / shares[0] + pitch / shares[1]) / 2.0 / EC_45_FLAT.no_load_speed
-    assert found.gyrostat.spin_inertia > least
-    assert end_rate(found.gyrostat, found.trajectory) < 1e-6
+    assert smallest.gyrostat.spin_inertia > least
+    assert end_rate(smallest.gyrostat, smallest.trajectory) < 1e-6
 
 
 SINGLE, TRIAD, ORTHOGONAL, PYRAMID = (
@@ -175,18 +175,18 @@ def test_one_program_sizes_any_layout_of_wheels(axes, pitch, roll, specified):
         specified, rel=1e-3
     )
     boundary = boundary_of(drop(pitch, roll))
-    found = smallest_wheels(Gyrostat(DIAGONAL, axes, 1.2e-4), boundary)
-    assert 0.97 < found.gyrostat.spin_inertia / specified < 0.995
-    assert not found.failure
-    assert attitude_error(boundary, found.trajectory) < 1e-6
+    smallest = smallest_wheels(Gyrostat(DIAGONAL, axes, 1.2e-4), boundary)
+    assert 0.97 < smallest.gyrostat.spin_inertia / specified < 0.995
+    assert not smallest.failure
+    assert attitude_error(boundary, smallest.trajectory) < 1e-6
 
 
 @pytest.mark.slow
 def test_a_single_wheel_flips_the_robot():
     """Within 1 % of the theory's figure for piecewise constant torques."""
-    found = smallest_wheels(Gyrostat(DIAGONAL, SINGLE, 2e-4), boundary_of(BACK_FLIP))
-    assert not found.failure
-    assert 0.99 < found.gyrostat.spin_inertia / 2.95e-4 < 1.0
+    smallest = smallest_wheels(Gyrostat(DIAGONAL, SINGLE, 2e-4), boundary_of(BACK_FLIP))
+    assert not smallest.failure
+    assert 0.99 < smallest.gyrostat.spin_inertia / 2.95e-4 < 1.0
 
 
 QUARTER = np.array([np.sqrt(0.5), 0.0, 0.0, np.sqrt(0.5)])
@@ -201,10 +201,10 @@ QUARTER = np.array([np.sqrt(0.5), 0.0, 0.0, np.sqrt(0.5)])
 def test_wheels_about_the_vertical_turn_the_heading(axes, specified):
     up = np.array([0.0, 0.0, 1.0])
     yaw = Boundary("yaw", UPRIGHT, QUARTER, up, np.pi / 2.0, 2.0, end="attitude")
-    found = smallest_wheels(Gyrostat(DIAGONAL, axes, 1.2e-4), yaw)
-    assert not found.failure
-    assert attitude_error(yaw, found.trajectory) < 1e-6
-    assert 0.975 < found.gyrostat.spin_inertia / specified < 0.995
+    smallest = smallest_wheels(Gyrostat(DIAGONAL, axes, 1.2e-4), yaw)
+    assert not smallest.failure
+    assert attitude_error(yaw, smallest.trajectory) < 1e-6
+    assert 0.975 < smallest.gyrostat.spin_inertia / specified < 0.995
 
 
 @pytest.mark.slow
@@ -222,8 +222,8 @@ def test_two_wheels_turn_the_heading_by_a_loop_of_the_tilt(duration, specified):
     up = np.array([0.0, 0.0, 1.0])
     yaw = Boundary("yaw", UPRIGHT, QUARTER, up, 0.0, duration, end="attitude")
     loop = HeadingLoop(UPRIGHT, np.zeros(3), np.pi / 2.0, 0.0, duration)
-    found = smallest_wheels(guess, yaw, start=loop.motion(guess, 16))
-    assert not found.failure
-    assert attitude_error(yaw, found.trajectory) < 1e-5
-    assert found.gyrostat.spin_inertia == pytest.approx(specified, rel=0.02)
-    assert np.abs(found.trajectory.rate[:, 2]).max() < 1e-6
+    smallest = smallest_wheels(guess, yaw, start=loop.motion(guess, 16))
+    assert not smallest.failure
+    assert attitude_error(yaw, smallest.trajectory) < 1e-5
+    assert smallest.gyrostat.spin_inertia == pytest.approx(specified, rel=0.02)
+    assert np.abs(smallest.trajectory.rate[:, 2]).max() < 1e-6
