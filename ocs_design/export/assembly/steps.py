@@ -24,6 +24,7 @@ from ocs_design.device.layout import PAIR, SIDES
 from ocs_design.device.resonances import resonances_of
 from ocs_design.device.solids import drive_solids, foot_of, shaft_cut
 from ocs_design.export.assembly.content import LEAST_DRILL, Assembly, Tightened
+from ocs_design.export.bill_of_materials import SHIM
 from ocs_design.export.device_parts import (
     BLOCK,
     foot_holes,
@@ -415,8 +416,12 @@ def _plate_steps(assembly: Assembly, plate: CarrierPlate, holes: str) -> Iterato
     own = zip(places(trunk_holes(plate)), plate.sleeves, strict=True)
     sleeves = [f"{1e3 * length:.2f} mm at {at}" for at, length in own if length > 0.0]
     if sleeves:
-        yield f"Under its holes stand sleeves{assembly.number('sleeves')}: " + (
-            ", ".join(sleeves) + ". File them to the trunk where it slopes under them."
+        shims = ""
+        if any(0.0 < length < SHIM for length in plate.sleeves):
+            shims = f" Shim washers do for those under {1e3 * SHIM:g} mm."
+        yield (
+            f"Under its holes stand sleeves{assembly.number('sleeves')}: {', '.join(sleeves)}. "
+            f"File them to the trunk where it slopes under them.{shims}"
         )
     yield from map(assembly.screwed, plate.fastenings)
 

@@ -176,7 +176,8 @@ def spin_test(assembly: Assembly) -> Iterator[str]:
     if stressed is not None:
         where, factor = stressed
         stress = f" The yield strength is then {factor:.1f} times the largest stress, in {where}."
-    yield f"Once, for ten seconds, {share:.0%}: {over}{supply}.{stress}"
+    raised = " Raise the controller's speed limit for it." if share > 1.0 else ""
+    yield f"Once, for ten seconds, {share:.0%}: {over}{supply}.{raised}{stress}"
     yield (
         "It fails if anything hums that did not before, if the vibration rises between two "
         "steps other than with the square of the speed, if the run-out has changed, if a screw "

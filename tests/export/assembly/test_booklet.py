@@ -156,6 +156,15 @@ def test_the_booklet_of_a_device_on_a_mast():
     assert "with their tops 90.0 mm below and level with the upright's" in steps
 
 
+@pytest.mark.parametrize(("length", "shims"), [(0.0007, True), (0.002, False)])
+def test_a_sleeve_thinner_than_a_millimetre_may_be_washers(length, shims):
+    device = DEVICES["on a plate"]
+    plate = replace(device.plate, sleeves=(0.0, length, length, 0.0045))
+    text = texts(Assembly("solo12", replace(device, plate=plate)), "Steps")
+    assert "stand sleeves" in text
+    assert ("Shim washers do for those under 1 mm" in text) == shims
+
+
 def test_the_plate_is_under_the_foot_with_its_screws_and_sleeves():
     """Assembled, its top is at the foot's underside; exploded, the pieces are below each other."""
     assembly = Assembly("solo12", DEVICES["on a plate"])
@@ -550,6 +559,8 @@ def test_the_spin_test_stays_within_the_speed_limit_of_the_motor(allowed, words)
     driven = replace(device, motor=motor, flywheel=wheel)
     text = texts(Assembly("solo12", driven), "Spin test")
     assert words in text
+    # Faster than the limit that the wiring sets.
+    assert ("Raise the controller's speed limit" in text) == (allowed > 1.0)
     part, factor = yield_margin(driven, min(1.1, allowed) * no_load_speed)
     assert f"yield strength is then {factor:.1f} times the largest stress, in {part}." in text
 
