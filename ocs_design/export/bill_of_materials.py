@@ -300,7 +300,7 @@ def bill_csv(device: Device, margins: Sequence[Margin] = (), refused: str = "") 
     # Designs of versions before 0.2 lack the mass of screws and of some of the motor's supports.
     remark = "as designed"
     if abs(total - device.mass) > _MASSLESS:
-        remark = f"the design has {_grams(device.mass)} g: size it again"
+        remark = f"design.json states {_grams(device.mass)} g: size it again"
     writer.writerow(["total", "", "", "", "", _grams(total), remark, ""])
     return text.getvalue()
 

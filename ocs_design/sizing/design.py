@@ -222,7 +222,9 @@ def _by_selection(
             plated = search.with_plate(co_design_result.device, problem)
             co_design_result = replace(co_design_result, device=plated, found_mass=plated.mass)
             if plated.mass >= best.mass:
-                note = "the selection stands: a heavier plate outweighs what the wheels would save"
+                note = (
+                    "the selected device is kept: a heavier plate outweighs the gain of the wheels"
+                )
                 co_design_result = replace(co_design_result, adopted=False, note=note, device=best)
         chosen = co_design_result.device
         figures = {

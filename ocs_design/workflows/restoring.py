@@ -153,7 +153,7 @@ def read_recorded_robot(
     warnings = tuple(warning for warning in robot.warnings if warning not in record.warnings)
     inertia = np.array(record.inertia)
     difference = np.abs(robot.inertia - inertia).max() / np.abs(inertia).max()
-    masses = f"mass {robot.mass:.4g} kg, then {record.mass:.4g} kg"
+    masses = f"its mass is {robot.mass:.4g} kg, at sizing it was {record.mass:.4g} kg"
     if robot.sha256 != record.sha256:
         changed = f"{robot.source}: not the file that the device was sized for; {masses}"
         warnings = (changed, *warnings)

@@ -58,9 +58,9 @@ class Outcome:
     """A device that was sized for a robot, and the folder with its files.
 
     Attributes:
-        design: the artefact.
+        design: everything recorded, as in `design.json`.
         folder: where everything was written.
-        robot, device, runs: the live values behind the artefact.
+        robot, device, runs: values that the record was made from.
     """
 
     design: OcsDesign

@@ -179,13 +179,13 @@ def validate_design(
 
     Args:
         design: its folder, its `design.json`, or the `Outcome` that made it.
-        samples: most robots to fly, sampled from `[reality]`; None: only the one as designed.
+        samples: largest number of robots to fly, sampled from `[reality]`; None: the nominal one.
         certify: fly only as many as it takes to decide on the specified reliability.
         until_width: width of the intervals at which to stop early, 0..1.
         seed: of all samples; None: the design's.
-        sample: number of the only one to fly. replay: file of the only case to fly.
+        sample: index of a single sample to fly. replay: file of a single case to fly.
         specification: `[validation]` and `[reality]` in place of the design's own.
-        robot_file: of the robot, if it has moved.
+        robot_file: the robot's file, if it has moved.
         package_paths: folder of each package, for `package://` addresses.
         scheduler: address of a Dask cluster; None: this machine.
         engine: "mujoco" on the processors, or "warp": samples on a GPU, in single precision.

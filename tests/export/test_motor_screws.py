@@ -36,7 +36,7 @@ def test_the_total_shows_where_a_design_has_no_screws():
     )
     total = bill_csv(without_screws).splitlines()[-1]
     assert total.startswith(f"total,,,,,{1e3 * device.mass:.3f},")
-    assert f"the design has {1e3 * without_screws.mass:.3f} g" in total
+    assert f"design.json states {1e3 * without_screws.mass:.3f} g" in total
 
 
 LIDS_AND_FEET = {

@@ -75,7 +75,7 @@ class CoDesignRecord:
     """Result of the co-design by optimal control.
 
     Attributes:
-        adopted: whether the device is the co-designed one; otherwise the selection stands.
+        adopted: whether the device is the co-designed one; otherwise the selected device is kept.
         status: of the solver. iterations: of the solver.
         mass: of the co-designed device [kg]; None if there is none.
         selected_mass: of the selected one [kg].

@@ -200,7 +200,7 @@ def _rim_note(drawing: WheelDrawing) -> str:
     if not drawing.wheel.shrunk_on:
         return "Rim, web and hub turned from one bar, web and hub in the rim's middle."
     if drawing.interference is None:
-        return "Rim shrunk on the web, which is not computed."
+        return "Rim shrunk on the web; the fit is not computed."
     least, most = (f"{1e3 * value:.3f}" for value in drawing.interference)
     return (
         f"Rim shrunk on the web, its bore {least} to {most} narrower: the list of parts has both "

@@ -46,7 +46,7 @@ class CoDesign:
     """Outcome of the co-design.
 
     Attributes:
-        adopted: whether `device` is the co-design's; otherwise the selection stands.
+        adopted: whether `device` is the co-design's; otherwise the selected device is kept.
         note: one sentence on that.
         device: the device to build.
         found_mass: mass of the program's result, adopted or not [kg].
@@ -79,12 +79,12 @@ def co_design(problem: SelectionProblem, selected: Candidate) -> CoDesign:
     """The lightest device of the selected motor, gear and material that flies its maneuvers.
 
     It is never heavier than the selection: where IPOPT fails, finds nothing lighter, or the fine
-    grid does not confirm its result, the selection stands and the note says why.
+    grid does not confirm its result, the selected device is kept and the note says why.
     """
     mass = float(selected.mass)
     rejected = CoDesign(
         adopted=False,
-        note="the selection stands: the spin inertia is specified",
+        note="the selected device is kept: the spin inertia is specified",
         device=selected,
         found_mass=mass,
         selected_mass=mass,
@@ -95,10 +95,12 @@ def co_design(problem: SelectionProblem, selected: Candidate) -> CoDesign:
     if problem.requirement.spin_inertia is not None:
         return rejected
     if any(each.on_pivot for each in problem.requirement.maneuvers):
-        return replace(rejected, note="the selection stands: a robot on a pivot is not co-designed")
+        return replace(
+            rejected, note="the selected device is kept: no co-design of a robot on a pivot"
+        )
     device = FreeDevice.of(problem, selected)
     if device is None:
-        note = "the selection stands: the envelope leaves the wheels no choice"
+        note = "the selected device is kept: the limits leave the wheels no choice"
         return replace(rejected, note=note)
     turns = list(device.turns())
     solution = solve(turns, _usable_line(problem, selected), PASSES, device.dimensions())
@@ -121,7 +123,7 @@ def co_design(problem: SelectionProblem, selected: Candidate) -> CoDesign:
         failure = f"the co-design in 3-D found nothing lighter ({difference})"
     outcome = replace(
         rejected,
-        note=f"the selection stands: {failure}",
+        note=f"the selected device is kept: {failure}",
         found_mass=result.mass,
         status=solution.status,
         iterations=solution.iterations,
