@@ -71,8 +71,10 @@ class DriveLine(Table):
 
     def divided(self, factor: float) -> "DriveLine":
         """The line with torque and speed divided by a factor, and power unchanged."""
-        less = {name: limit / factor for name, limit in vars(self).items() if name != "power_max"}
-        return replace(self, **less)
+        divided = {
+            name: limit / factor for name, limit in vars(self).items() if name != "power_max"
+        }
+        return replace(self, **divided)
 
     def from_speed(self, speed: float | FloatArray) -> "DriveLine":
         """The line for the change of a wheel's speed from an initial one [rad/s].
@@ -80,11 +82,11 @@ class DriveLine(Table):
         It is that of the same winding at a voltage reduced by the back EMF at the initial speed,
         exactly for a wheel that only speeds up and that the supply's power does not limit.
         """
-        left = np.maximum(1.0 - speed / np.asarray(self.no_load_speed), _NO_SPEED)
+        factor = np.maximum(1.0 - speed / np.asarray(self.no_load_speed), _NO_SPEED)
         return replace(
             self,
-            stall_torque=self.stall_torque * left,
-            no_load_speed=self.no_load_speed * left,
+            stall_torque=self.stall_torque * factor,
+            no_load_speed=self.no_load_speed * factor,
             speed_max=np.maximum(self.speed_max - speed, _NO_SPEED),
         )
 
@@ -135,7 +137,7 @@ def missing_figures(motor: Motor, gear: Gear) -> tuple[str, ...]:
     rotor turns with the wheel and no faster, it adds at least as much to the momentum as to the
     inertia to be accelerated. Otherwise its source must state it.
     """
-    helps = gear.ratio <= 1.0 and not gear.reverses
+    is_conservative = gear.ratio <= 1.0 and not gear.reverses
     stated_inertia = None if motor.rotor_inertia_source else motor.rotor_inertia
     figures = {
         "mass": motor.mass,
@@ -143,7 +145,7 @@ def missing_figures(motor: Motor, gear: Gear) -> tuple[str, ...]:
         "resistance": motor.resistance,
         "peak torque or current": motor.peak_torque,
         "highest speed or rated voltage": speed_limit(motor),
-        "rotor inertia": 0.0 if helps else stated_inertia,
+        "rotor inertia": 0.0 if is_conservative else stated_inertia,
     }
     return tuple(name for name, figure in figures.items() if figure is None)
 
@@ -281,25 +283,25 @@ class Drive(AnyMotor):
     @property
     def overvoltage(self) -> str:
         """One sentence if the supply is above the motor's rating; empty otherwise."""
-        fed, rated = self.bus_voltage, self.rated_voltage
-        if not fed or not rated or fed <= rated:
+        supplied, rated = self.bus_voltage, self.rated_voltage
+        if not supplied or not rated or supplied <= rated:
             return ""
         return (
-            f"{self.name} is rated for {rated:g} V but runs at {fed:g} V: ask the makers of motor "
-            "and controller if this is allowed"
+            f"{self.name} is rated for {rated:g} V but runs at {supplied:g} V: ask the makers of "
+            "motor and controller if this is allowed"
         )
 
     @property
     def top_speed_reason(self) -> str:
         """What limits `top_speed`, in words: the supply, or what is allowed if that is less."""
-        free = "without load" + (f" at {self.bus_voltage:g} V" if self.bus_voltage else "")
+        without_load = "without load" + (f" at {self.bus_voltage:g} V" if self.bus_voltage else "")
         if self.speed_max is None or self.no_load_speed <= self.speed_max:
-            return free
-        return f"the most allowed; {rpm(self.no_load_speed)} {free}"
+            return without_load
+        return f"the most allowed; {rpm(self.no_load_speed)} {without_load}"
 
     @property
-    def line_left(self) -> float:
-        """Fraction of the line left by the motor's friction, 1 - N eta k_t I_0 / tau_s.
+    def friction_factor(self) -> float:
+        """Factor on the line due to the motor's friction, 1 - N eta k_t I_0 / tau_s.
 
         Both stall torque and no-load speed are reduced by this factor; the slope stays the same.
         """
@@ -316,7 +318,7 @@ class Drive(AnyMotor):
         return self.gear_ratio * self.gear_efficiency * (self.torque_constant or 0.0)
 
     @property
-    def at_the_air_gap(self) -> "Drive":
+    def without_friction(self) -> "Drive":
         """The drive without its own friction, for models that include friction themselves."""
         limit = None if self.torque_limit is None else self.torque_limit + self.friction
         return replace(self, torque_limit=limit, no_load_current=None)

@@ -74,8 +74,8 @@ class Screw:
 
     def centre(self, length: float) -> float:
         """Centre of mass, from under the head towards the tip [m]; the head has a socket."""
-        beside = self._thread_mass(length) * length - self._head_mass * self.head_height
-        return beside / (2.0 * self.mass(length))
+        moment = self._thread_mass(length) * length - self._head_mass * self.head_height
+        return moment / (2.0 * self.mass(length))
 
     @property
     def stress_area(self) -> float:
@@ -255,8 +255,8 @@ class Fastening:
     @property
     def shortened(self) -> float | None:
         """Length to which each is cut [m]; None: it fits as it is bought."""
-        fits = self.thickness + self.most
-        return fits if self.length > fits else None
+        longest = self.thickness + self.most
+        return longest if self.length > longest else None
 
     @property
     def name(self) -> str:
@@ -268,24 +268,24 @@ class Fastening:
     @property
     def purpose(self) -> str:
         """Wording of the joint, with any caution."""
-        said, cut = self.name, self.shortened
+        text, cut_to = self.name, self.shortened
         if self.several_lengths:
-            said += f", {1e3 * self.length:.0f} mm long"
+            text += f", {1e3 * self.length:.0f} mm long"
         if self.joint.in_print:
-            said += ", which is tapped"
+            text += ", which is tapped"
         elif self.joint.in_trunk:
-            said += "; longer if the trunk's thread starts deeper"
+            text += "; longer if the trunk's thread starts deeper"
         elif self.joint.in_motor:
-            said += "; check the depth of the motor's thread"
+            text += "; check the depth of the motor's thread"
             if self.least > 0.0:
-                said += f", its maker specifies {1e3 * self.least:.4g} to {1e3 * self.most:.4g} mm"
+                text += f", its maker specifies {1e3 * self.least:.4g} to {1e3 * self.most:.4g} mm"
             elif isfinite(self.most):
-                said += f", a CAD model has {1e3 * (self.most + OFF_BOTTOM):.4g} mm"
-            if cut is not None:
-                said += f": shorten them to {1e3 * cut:.3g} mm"
-        elif cut is not None:
-            said += f"; cut to {1e3 * cut:.1f} mm, or they reach the trunk"
-        return said
+                text += f", a CAD model has {1e3 * (self.most + OFF_BOTTOM):.4g} mm"
+            if cut_to is not None:
+                text += f": shorten them to {1e3 * cut_to:.3g} mm"
+        elif cut_to is not None:
+            text += f"; cut to {1e3 * cut_to:.1f} mm, or they reach the trunk"
+        return text
 
     @property
     def mass(self) -> float:
@@ -318,9 +318,11 @@ LENGTHS = (4, 5, 6, 8, 10, 12, 16, *range(20, 71, 5), *range(80, 161, 10), *rang
 """Standard lengths from 4 mm up [mm]: ISO 4762:2004, table 1."""
 
 
-def longest_within(most: float) -> float:
+def longest_within(length_max: float) -> float:
     """Longest standard length that is at most that [m]; 0: none."""
-    return max((1e-3 * each for each in LENGTHS if each <= 1e3 * most + 1e-9), default=0.0)
+    return max(
+        (1e-3 * length for length in LENGTHS if length <= 1e3 * length_max + 1e-9), default=0.0
+    )
 
 
 SCREWS = (
@@ -343,7 +345,7 @@ ScrewClass: TypeAlias = Annotated[str, OneOf(tuple(CLASSES))]
 
 def screw(name: str) -> Screw:
     """The screw of a name such as "M3"."""
-    for found in SCREWS:
-        if found.name == name:
-            return found
+    for known in SCREWS:
+        if known.name == name:
+            return known
     raise PartError(f"no screw is called {name!r}", hint="there are " + ", ".join(SCREW_NAMES))

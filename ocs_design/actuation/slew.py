@@ -101,8 +101,8 @@ def slew_profile(
     brake_from, end = (slew.up + slew.coast) * known, np.where(possible, time, np.nan)
     # The speed at which most torque slows the wheel, first one way, then the other.
     strongest = -drive.regenerating
-    pushes = drive.forwards(np.clip(strongest, drive.initial_speed, slew.peak))
-    brakes = drive.forwards(np.clip(strongest, -slew.peak, -final))
+    pushes = drive.forward_torque(np.clip(strongest, drive.initial_speed, slew.peak))
+    brakes = drive.forward_torque(np.clip(strongest, -slew.peak, -final))
     pushes = np.where(slew.up * known > 0.0, pushes, 0.0)
     brakes = np.where(brake_from < end, brakes, 0.0)
     return SlewProfile(

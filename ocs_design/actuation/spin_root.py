@@ -19,7 +19,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ocs_design.actuation.unit_drive import UnitDrive, attained, farthest_slew, positive
+from ocs_design.actuation.unit_drive import UnitDrive, farthest_slew, positive, reachable_speed
 from ocs_design.common.arrays import FloatArray, Table
 
 _STEPS = 80
@@ -73,29 +73,33 @@ def capability(demand: SweepDemand, spin_inertia: FloatArray) -> Capability:
     unit = reduced * drive.no_load_speed / drive.torque
     time = demand.duration / unit
     gain = demand.momentum / (h * drive.no_load_speed)
-    final = attained(drive, time, drive.initial_speed + gain)
+    final = reachable_speed(drive, time, drive.initial_speed + gain)
     slew = farthest_slew(drive, time, final)
     angle = slew.angle - drive.initial_speed * time
     by_inertia = h * (slew.angle - slew.peak * time) * (1.0 - 2.0 * demand.coupling * h) / reduced
-    by_final_speed = (final - drive.initial_speed) * (slew.peak - final) / drive.forwards(-final)
+    by_final_speed = (
+        (final - drive.initial_speed) * (slew.peak - final) / drive.forward_torque(-final)
+    )
     slope = angle + by_inertia - by_final_speed
     scale = drive.no_load_speed * unit
     return Capability(scale * h * angle, scale * slope)
 
 
-def newton_step(demand: SweepDemand, spin_inertia: FloatArray, can: Capability) -> FloatArray:
+def newton_step(
+    demand: SweepDemand, spin_inertia: FloatArray, capability_there: Capability
+) -> FloatArray:
     """Newton step of 1/M over 1/h [kg m^2]; inf where it would go beyond every h.
 
     Args:
         demand: to be met.
         spin_inertia: h where it is tried [kg m^2].
-        can: what wheels of that spin inertia do.
+        capability_there: what wheels of that spin inertia do.
     """
     # Where nothing is to be swept, the lack is minus infinity, and the step leads to zero.
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        lack = can.sweep * (1.0 - can.sweep / demand.sweep)
-        gain = lack / (can.slope * spin_inertia)
-        ahead = (can.slope > 0.0) & (gain < 1.0)
+        missing = capability_there.sweep * (1.0 - capability_there.sweep / demand.sweep)
+        gain = missing / (capability_there.slope * spin_inertia)
+        ahead = (capability_there.slope > 0.0) & (gain < 1.0)
         return np.where(ahead, spin_inertia / (1.0 - gain), np.inf)
 
 
@@ -104,24 +108,26 @@ def smallest_roots(demands: Sequence[SweepDemand]) -> list[FloatArray]:
 
     All are solved at once: for few demands, a NumPy call costs more than its work.
     """
-    of_drive = [field.name for field in fields(UnitDrive)]
-    own = [field.name for field in fields(SweepDemand) if field.name != "drive"]
+    drive_fields = [field.name for field in fields(UnitDrive)]
+    demand_fields = [field.name for field in fields(SweepDemand) if field.name != "drive"]
     shapes, columns = [], []
     for demand in demands:
-        drive = [getattr(demand.drive, name) for name in of_drive]
-        parts = np.broadcast_arrays(*(getattr(demand, name) for name in own), *drive)
+        drive = [getattr(demand.drive, name) for name in drive_fields]
+        parts = np.broadcast_arrays(*(getattr(demand, name) for name in demand_fields), *drive)
         shapes.append(parts[0].shape)
         columns.append([part.reshape(-1) for part in parts])
     flat = [np.concatenate(parts) for parts in zip(*columns, strict=True)]
-    drives = UnitDrive(**dict(zip(of_drive, flat[len(own) :], strict=True)))
-    whole = SweepDemand(**dict(zip(own, flat[: len(own)], strict=True)), drive=drives)
-    answer = np.empty(whole.sweep.size)
+    drives = UnitDrive(**dict(zip(drive_fields, flat[len(demand_fields) :], strict=True)))
+    all_demands = SweepDemand(
+        **dict(zip(demand_fields, flat[: len(demand_fields)], strict=True)), drive=drives
+    )
+    answer = np.empty(all_demands.sweep.size)
     for start in range(0, answer.size, _BLOCK):
         block = slice(start, start + _BLOCK)
-        answer[block] = _roots(whole.take(block))
+        answer[block] = _roots(all_demands.take(block))
     ends = np.cumsum([prod(shape) for shape in shapes])[:-1]
-    each = zip(np.split(answer, ends), shapes, strict=True)
-    return [part.reshape(shape) for part, shape in each]
+    answers = zip(np.split(answer, ends), shapes, strict=True)
+    return [part.reshape(shape) for part, shape in answers]
 
 
 def _roots(demand: SweepDemand) -> FloatArray:
@@ -131,15 +137,15 @@ def _roots(demand: SweepDemand) -> FloatArray:
     # Below this h the speed alone is too low, or there is nothing to accelerate.
     gain = (drive.highest - drive.initial_speed) * drive.no_load_speed
     by_speed = demand.sweep / (gain * positive(demand.duration))
-    relief = np.maximum(-demand.armature, 0.0)
-    root = np.sqrt(np.maximum(1.0 - 4.0 * demand.coupling * relief, 0.0))
-    nothing_left = 2.0 * relief / (1.0 + root) * (1.0 + 1e-9)
-    low = np.maximum(np.maximum(by_speed, demand.least), nothing_left)
+    negative_armature = np.maximum(-demand.armature, 0.0)
+    root = np.sqrt(np.maximum(1.0 - 4.0 * demand.coupling * negative_armature, 0.0))
+    least_with_inertia = 2.0 * negative_armature / (1.0 + root) * (1.0 + 1e-9)
+    low = np.maximum(np.maximum(by_speed, demand.least), least_with_inertia)
 
-    asked = (demand.sweep > 0.0) | (demand.momentum > 0.0)
-    answer = np.where(asked, np.inf, demand.least)
-    able = (drive.torque > 0.0) & (demand.duration > 0.0)
-    lane = np.flatnonzero(asked & able & (low <= high))
+    is_required = (demand.sweep > 0.0) | (demand.momentum > 0.0)
+    answer = np.where(is_required, np.inf, demand.least)
+    can_move = (drive.torque > 0.0) & (demand.duration > 0.0)
+    lane = np.flatnonzero(is_required & can_move & (low <= high))
     start, top = low[lane], high[lane]
     search = _Search(lane, demand.take(lane), start, start, top, top, np.zeros(lane.shape, bool))
     for _ in range(_STEPS):
@@ -171,16 +177,16 @@ class _Search(Table):
 
     def advance(self, answer: FloatArray) -> "_Search":
         """Try h, write solved lanes into `answer`, and keep the undecided ones."""
-        can = capability(self.demand, self.h)
-        enough = can.sweep >= self.demand.sweep
+        capacity = capability(self.demand, self.h)
+        enough = capacity.sweep >= self.demand.sweep
         low, high = np.where(enough, self.low, self.h), np.where(enough, self.h, self.high)
         found = self.found | enough
-        newton = newton_step(self.demand, self.h, can)
+        newton = newton_step(self.demand, self.h, capacity)
         inside = (newton > low) & (newton < high)
-        following = np.where(found & ~inside, np.sqrt(low * high), np.minimum(newton, self.top))
+        next_h = np.where(found & ~inside, np.sqrt(low * high), np.minimum(newton, self.top))
         # Nothing below the start is considered; a closed bracket's upper end is the root.
         closed = (enough & (self.h <= low)) | (found & (high - low <= _DIGITS * high))
         solved = closed | (np.abs(newton - self.h) <= _DIGITS * self.h)
         answer[self.lane[solved]] = np.where(closed, high, newton)[solved]
         keep = ~(solved | (~enough & (self.h >= self.top)))
-        return replace(self, h=following, low=low, high=high, found=found).take(keep)
+        return replace(self, h=next_h, low=low, high=high, found=found).take(keep)

@@ -20,7 +20,7 @@ OUT_OF_REACH = 1e-9
 """Sine or cosine of an incidence below which the wheels do not control an axis; cos(pi/2) is 6e-17.
 """
 
-STRAY_MAX = float(np.radians(1.0))
+DRIFT_MAX = float(np.radians(1.0))
 """Largest angle off level at a turn's end about an axis that the wheels do not control [rad]."""
 
 
@@ -69,31 +69,31 @@ class TiltInertia(NamedTuple):
         """Roll per pitch and pitch per roll of a body free about that axis, shape (..., 2)."""
         return np.asarray(np.abs(self.product)[..., None] / self.diagonal)
 
-    def strays(self, stray: float) -> NDArray[np.bool_]:
+    def drifts_off_level(self, tilt_per_drift: float) -> NDArray[np.bool_]:
         """Whether a turn ends off level about an uncontrolled axis, shape (..., 2).
 
         Args:
-            stray: angle off level at the end, per unit of drift [rad].
+            tilt_per_drift: angle off level at the end, per unit of drift [rad].
         """
-        return np.asarray(self.drift * stray > STRAY_MAX)
+        return np.asarray(self.drift * tilt_per_drift > DRIFT_MAX)
 
-    def within_reach(self, shares: FloatArray, stray: float) -> "TiltInertia":
+    def within_reach(self, shares: FloatArray, tilt_per_drift: float) -> "TiltInertia":
         """Inertia to be turned by wheels that leave an uncontrolled axis free, like yaw.
 
         The body then drifts about that axis by J_xy over its inertia, and the inertia about the
-        other one is reduced by J_xy^2 over it. Where a turn `strays`, the coupling stays: it
-        requires momentum that these wheels cannot absorb.
+        other one is reduced by J_xy^2 over it. Where a turn `drifts_off_level`, the coupling stays:
+        it requires momentum that these wheels cannot absorb.
 
         Args:
             shares: components of a wheel's axis about roll and pitch, shape (..., 2).
-            stray: angle off level at a turn's end, per unit of drift [rad].
+            tilt_per_drift: angle off level at a turn's end, per unit of drift [rad].
         """
-        blind = shares <= OUT_OF_REACH
-        if not blind.any():
+        uncontrolled = shares <= OUT_OF_REACH
+        if not uncontrolled.any():
             return self
-        free = blind & ~self.strays(stray)
-        given_way = np.abs(self.product)[..., None] * self.drift * free
+        free = uncontrolled & ~self.drifts_off_level(tilt_per_drift)
+        reduction = np.abs(self.product)[..., None] * self.drift * free
         return TiltInertia(
-            np.asarray(self.diagonal - given_way[..., ::-1]),
+            np.asarray(self.diagonal - reduction[..., ::-1]),
             np.where(free.any(axis=-1), 0.0, self.product),
         )

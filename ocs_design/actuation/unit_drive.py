@@ -113,22 +113,22 @@ class UnitDrive(Table):
             power = np.where(np.isinf(stall), np.inf, line.power_max / (stall * speed))
             limit = np.where(np.isfinite(power), np.minimum(limit, np.sqrt(power) * stall), limit)
         # Without torque, as where friction takes all the power, the shape is meaningless.
-        endless = np.isinf(stall) | (limit == 0.0)
-        power = np.where(endless, np.inf, power)
+        without_line = np.isinf(stall) | (limit == 0.0)
+        power = np.where(without_line, np.inf, power)
         with np.errstate(divide="ignore", invalid="ignore"):
-            ratio = np.where(endless, 0.0, limit / stall)
-            brake = np.where(endless, 1.0, np.minimum(1.0, stall / limit))
+            ratio = np.where(without_line, 0.0, limit / stall)
+            brake = np.where(without_line, 1.0, np.minimum(1.0, stall / limit))
         cap = np.asarray(line.speed_max / speed)
-        most = _SLOWER * np.minimum(cap, 1.0)
+        highest = _SLOWER * np.minimum(cap, 1.0)
         return cls(
             no_load_speed=speed,
             torque=np.minimum(np.minimum(stall, limit), _UNLIMITED),
             knee=np.minimum(1.0, ratio),
             brake=brake,
             clamp=np.clip(ratio - 1.0, 0.0, 1.0),
-            cap=np.where(endless, np.minimum(cap, 1.0), np.where(cap < 1.0, cap, np.inf)),
+            cap=np.where(without_line, np.minimum(cap, 1.0), np.where(cap < 1.0, cap, np.inf)),
             power=power,
-            initial_speed=np.clip(np.asarray(initial_speed) / speed, -most, most),
+            initial_speed=np.clip(np.asarray(initial_speed) / speed, -highest, highest),
         )
 
     @property
@@ -144,7 +144,7 @@ class UnitDrive(Table):
         return np.where(limited, by_power, 1.0 - self.knee)
 
     @cached_property
-    def spare(self) -> FloatArray:
+    def line_spare(self) -> FloatArray:
         """1 - x at the point where the voltage line takes over."""
         return np.minimum(self.power, self.knee)
 
@@ -166,7 +166,7 @@ class UnitDrive(Table):
     def to_line(self) -> FloatArray:
         """Time from rest to where the line takes over from the power limit [T_0]."""
         begin = self.end_of_limit
-        gain = np.maximum(1.0 - self.spare - begin, 0.0)
+        gain = np.maximum(1.0 - self.line_spare - begin, 0.0)
         return rise_sweep(self, Rise(begin, gain, 0.0 * begin)).time
 
     @cached_property
@@ -177,15 +177,15 @@ class UnitDrive(Table):
     def accelerating(self, speed: FloatArray) -> FloatArray:
         """Torque while accelerating, a(x) [a_0]."""
         c, knee = self.current, positive(self.knee)
-        on_line = np.where(speed > 1.0 - self.spare, (1.0 - speed) / knee, 1.0)
+        on_line = np.where(speed > 1.0 - self.line_spare, (1.0 - speed) / knee, 1.0)
         by_power = 2.0 * c**2 / (speed + np.sqrt(speed**2 + 4.0 * c**2)) / knee
-        felt = (self.power < self.knee) & (speed > self.end_of_limit)
-        return np.where(felt, np.minimum(by_power, on_line), on_line)
+        limited_by_power = (self.power < self.knee) & (speed > self.end_of_limit)
+        return np.where(limited_by_power, np.minimum(by_power, on_line), on_line)
 
-    def forwards(self, speed: FloatArray) -> FloatArray:
+    def forward_torque(self, speed: FloatArray) -> FloatArray:
         """Largest torque in the direction of the slew at a speed of either sign [a_0]."""
-        slowed = self.braking(np.maximum(-speed, 0.0))
-        return np.where(speed < 0.0, slowed, self.accelerating(np.maximum(speed, 0.0)))
+        braking = self.braking(np.maximum(-speed, 0.0))
+        return np.where(speed < 0.0, braking, self.accelerating(np.maximum(speed, 0.0)))
 
     def braking(self, speed: FloatArray) -> FloatArray:
         """Braking torque b(x), positive [a_0]."""
@@ -255,33 +255,36 @@ class UnitSlew(NamedTuple):
 
 def risen_speed(drive: UnitDrive, rise: Rise) -> FloatArray:
     """x at the end of a rise [w_0]."""
-    speed: FloatArray = rise.ramp + rise.gain - drive.spare * np.expm1(-rise.line)
+    speed: FloatArray = rise.ramp + rise.gain - drive.line_spare * np.expm1(-rise.line)
     return speed
 
 
 def rise_sweep(drive: UnitDrive, rise: Rise) -> SlewPart:
     """Time and angle of a rise."""
-    knee, spare, z = drive.knee, drive.spare, rise.line
-    on_line = knee * ((1.0 - spare) * z + spare * exp_remainder(z))
+    knee, line_spare, z = drive.knee, drive.line_spare, rise.line
+    on_line = knee * ((1.0 - line_spare) * z + line_spare * exp_remainder(z))
     begin, c = drive.end_of_limit, 2.0 * drive.current
     first, last = np.arcsinh(begin / c), np.arcsinh((begin + rise.gain) / c)
     powered = _powered_sweep(drive, first, last, 1.0)
-    time, angle = (np.where(rise.gain > 0.0, each, 0.0) for each in powered)
+    time, angle = (np.where(rise.gain > 0.0, part, 0.0) for part in powered)
     return SlewPart(rise.ramp + time + knee * z, rise.ramp**2 / 2.0 + angle + on_line)
 
 
 def _powered_sweep(drive: UnitDrive, first: FloatArray, last: FloatArray, sense: float) -> SlewPart:
     """Sweep at the power limit from one u to another; `sense` is 1 up and -1 down."""
 
-    def reached(u: FloatArray) -> SlewPart:
+    def sweep_to(u: FloatArray) -> SlewPart:
         """Sweep since u = 0, up to a constant."""
-        grown = np.exp(u)
-        return SlewPart(grown**2 / 2.0 + sense * u, drive.current * (grown**3 / 3.0 + 1.0 / grown))
+        exponential = np.exp(u)
+        return SlewPart(
+            exponential**2 / 2.0 + sense * u,
+            drive.current * (exponential**3 / 3.0 + 1.0 / exponential),
+        )
 
     return SlewPart(
         *(
             drive.knee * (after - before)
-            for after, before in zip(reached(last), reached(first), strict=True)
+            for after, before in zip(sweep_to(last), sweep_to(first), strict=True)
         )
     )
 
@@ -292,7 +295,7 @@ def brake_sweep(drive: UnitDrive, peak: FloatArray, final: FloatArray) -> SlewPa
     c, fed_back = 2.0 * drive.current, peak > top
     first, last = (np.arccosh(np.maximum(speed / c, 1.0)) for speed in (top, peak))
     powered = _powered_sweep(drive, first, last, -1.0)
-    time, angle = (np.where(fed_back, each, 0.0) for each in powered)
+    time, angle = (np.where(fed_back, part, 0.0) for part in powered)
     middle = np.minimum(np.maximum(drive.clamp, final), top)
     ratio = (middle - final) / (1.0 + final)
     excess = log_remainder(ratio)
@@ -309,21 +312,21 @@ def rise_for(drive: UnitDrive, time: FloatArray) -> Rise:
     ramp = np.minimum(time, begin)
     limited = drive.power < drive.knee
     # At the power limit e^w + w = 2 t / l with w = 2u, so that e^w is the Wright omega of it.
-    asked = drive.entry + np.where(limited, 2.0 * (time - ramp) / knee, 0.0)
-    grown = np.sqrt(wrightomega(np.minimum(asked, _UNLIMITED)))
-    gain = drive.current * (grown - 1.0 / grown) - begin
-    gain = np.clip(gain, 0.0, np.maximum(1.0 - drive.spare - begin, 0.0))
+    omega_argument = drive.entry + np.where(limited, 2.0 * (time - ramp) / knee, 0.0)
+    exponential = np.sqrt(wrightomega(np.minimum(omega_argument, _UNLIMITED)))
+    gain = drive.current * (exponential - 1.0 / exponential) - begin
+    gain = np.clip(gain, 0.0, np.maximum(1.0 - drive.line_spare - begin, 0.0))
     gain = np.where(limited & (time > ramp), gain, 0.0)
-    left = np.maximum(time - np.where(limited, drive.to_line, ramp), 0.0)
-    return Rise(ramp, gain, np.where(drive.knee > 0.0, left / knee, 0.0))
+    time_left = np.maximum(time - np.where(limited, drive.to_line, ramp), 0.0)
+    return Rise(ramp, gain, np.where(drive.knee > 0.0, time_left / knee, 0.0))
 
 
 def rise_to(drive: UnitDrive, speed: FloatArray) -> Rise:
     """Rise to `speed` [w_0]; an infinite line phase where that is not below 1."""
-    begin, spare = drive.end_of_limit, drive.spare
+    begin, line_spare = drive.end_of_limit, drive.line_spare
     ramp = np.minimum(speed, begin)
-    gain = np.where(drive.power < drive.knee, np.minimum(speed, 1.0 - spare) - ramp, 0.0)
-    span = np.where(spare > 0.0, (speed - ramp - gain) / positive(spare), 0.0)
+    gain = np.where(drive.power < drive.knee, np.minimum(speed, 1.0 - line_spare) - ramp, 0.0)
+    span = np.where(line_spare > 0.0, (speed - ramp - gain) / positive(line_spare), 0.0)
     with np.errstate(divide="ignore"):
         return Rise(ramp, gain, -np.log1p(-np.minimum(span, 1.0)))
 
@@ -339,16 +342,16 @@ def since_rest(drive: UnitDrive, speed: FloatArray) -> SlewPart:
     return SlewPart(np.where(back, -down.time, up.time), np.where(back, down.angle, up.angle))
 
 
-def attained(drive: UnitDrive, time: FloatArray, final: FloatArray) -> FloatArray:
+def reachable_speed(drive: UnitDrive, time: FloatArray, final: FloatArray) -> FloatArray:
     """`final` speed, or one reached in `time` if that is not, the highest from rest up [w_0]."""
     if not drive.initial_speed.any():
         return np.minimum(final, risen_speed(drive, rise_for(drive, time)))
-    left = time + since_rest(drive, drive.initial_speed).time
-    risen = risen_speed(drive, rise_for(drive, np.maximum(left, 0.0)))
+    time_left = time + since_rest(drive, drive.initial_speed).time
+    risen = risen_speed(drive, rise_for(drive, np.maximum(time_left, 0.0)))
     below = np.minimum(final, _SLOWER * drive.highest)
-    reached = (final <= below) & (since_rest(drive, below).time <= left)
+    reached = (final <= below) & (since_rest(drive, below).time <= time_left)
     return np.where(
-        reached, final, np.where(left > 0.0, np.minimum(final, risen), drive.initial_speed)
+        reached, final, np.where(time_left > 0.0, np.minimum(final, risen), drive.initial_speed)
     )
 
 
@@ -360,10 +363,13 @@ def farthest_slew(drive: UnitDrive, time: FloatArray, final: FloatArray) -> Unit
     if not drive.initial_speed.any():
         return _slew_from_rest(drive, time, final)
     lead, tail = since_rest(drive, drive.initial_speed), since_rest(drive, np.maximum(-final, 0.0))
-    whole = time + lead.time - tail.time
-    slew = _slew_from_rest(drive, np.abs(whole), np.maximum(final, 0.0))
-    peak = np.copysign(slew.peak, whole)
-    up = np.where(whole < 0.0, since_rest(drive, np.minimum(peak, 0.0)).time, slew.up) - lead.time
+    time_from_rest = time + lead.time - tail.time
+    slew = _slew_from_rest(drive, np.abs(time_from_rest), np.maximum(final, 0.0))
+    peak = np.copysign(slew.peak, time_from_rest)
+    up = (
+        np.where(time_from_rest < 0.0, since_rest(drive, np.minimum(peak, 0.0)).time, slew.up)
+        - lead.time
+    )
     return UnitSlew(up, peak, slew.coast, slew.angle - lead.angle - tail.angle)
 
 
@@ -373,12 +379,12 @@ def _slew_from_rest(drive: UnitDrive, time: FloatArray, final: FloatArray) -> Un
     ramp = np.minimum((time + final) / 2.0, drive.end_of_limit)
     line = np.where(time + final > 2.0 * drive.end_of_limit, _line_phase(drive, time, final), 0.0)
     rise = Rise(ramp, np.zeros_like(ramp), line)
-    beyond = np.isfinite(time) & (time + final > 2.0 * drive.end_of_limit)
+    beyond_knee = np.isfinite(time) & (time + final > 2.0 * drive.end_of_limit)
     # A limit that applies only to braking from a higher peak has no effect.
     limited = (drive.power < drive.knee) | (risen_speed(drive, rise) > drive.regenerating)
-    felt = limited & beyond
-    if felt.any():
-        rise = _powered_rise(drive, time, final, felt, rise)
+    affected = limited & beyond_knee
+    if affected.any():
+        rise = _powered_rise(drive, time, final, affected, rise)
     rise = Rise(*(np.minimum(own, most) for own, most in zip(rise, capped, strict=True)))
     peak = risen_speed(drive, rise)
     up, down = rise_sweep(drive, rise), brake_sweep(drive, peak, final)
@@ -388,7 +394,7 @@ def _slew_from_rest(drive: UnitDrive, time: FloatArray, final: FloatArray) -> Un
 
 
 def _powered_rise(
-    drive: UnitDrive, time: FloatArray, final: FloatArray, felt: NDArray[np.bool_], rise: Rise
+    drive: UnitDrive, time: FloatArray, final: FloatArray, affected: NDArray[np.bool_], rise: Rise
 ) -> Rise:
     """Rises without a cap where the supply may limit the slew, by Newton's method.
 
@@ -396,31 +402,34 @@ def _powered_rise(
     time down grows by no more than the time up, so the sum's slope over the time up is between 1
     and 2.
     """
-    shape = felt.shape
+    shape = affected.shape
 
-    def lanes(values: FloatArray) -> FloatArray:
+    def of_affected(values: FloatArray) -> FloatArray:
         """Values of the drives whose slew the supply limits."""
-        return np.broadcast_to(values, shape)[felt]
+        return np.broadcast_to(values, shape)[affected]
 
-    own = UnitDrive(*(lanes(getattr(drive, field.name)) for field in fields(drive)))
-    whole, end = lanes(time), lanes(final)
-    low, high = np.minimum(rise_sweep(own, rise_to(own, end)).time, whole), whole
+    limited_drive = UnitDrive(*(of_affected(getattr(drive, field.name)) for field in fields(drive)))
+    total_time, end = of_affected(time), of_affected(final)
+    least = rise_sweep(limited_drive, rise_to(limited_drive, end)).time
+    low, high = np.minimum(least, total_time), total_time
     up = (low + high) / 2.0
     for _ in range(_POWER_STEPS):
-        peak = risen_speed(own, rise_for(own, up))
-        excess = up + brake_sweep(own, np.maximum(peak, end), end).time - whole
+        peak = risen_speed(limited_drive, rise_for(limited_drive, up))
+        excess = up + brake_sweep(limited_drive, np.maximum(peak, end), end).time - total_time
         low, high = np.where(excess < 0.0, up, low), np.where(excess < 0.0, high, up)
-        following = up - excess / (1.0 + own.accelerating(peak) / own.braking(peak))
-        outside = (following < low) | (following > high)
-        step = np.where(outside, (low + high) / 2.0, following) - up
+        next_up = up - excess / (
+            1.0 + limited_drive.accelerating(peak) / limited_drive.braking(peak)
+        )
+        outside = (next_up < low) | (next_up > high)
+        step = np.where(outside, (low + high) / 2.0, next_up) - up
         up = up + step
-        if (np.abs(step) <= _LAST_STEP * whole).all():
+        if (np.abs(step) <= _LAST_STEP * total_time).all():
             break
-    found = rise_for(own, up)
+    rises = rise_for(limited_drive, up)
     parts = []
-    for values, better in zip(rise, found, strict=True):
+    for values, improved in zip(rise, rises, strict=True):
         part = np.broadcast_to(values, shape).copy()
-        part[felt] = better
+        part[affected] = improved
         parts.append(part)
     return Rise(*parts)
 
@@ -432,11 +441,11 @@ def quickest_time(drive: UnitDrive, excess: FloatArray, final: FloatArray) -> Fl
     the time that torque alone would take from the final speed if the wheel always braked as hard as
     at no-load speed, and overshoots once.
     """
-    to, lead = since_rest(drive, final), since_rest(drive, drive.initial_speed)
-    least = to.time - lead.time
-    deficit = np.maximum(final * least - (to.angle - lead.angle), 0.0)
+    to_final, lead = since_rest(drive, final), since_rest(drive, drive.initial_speed)
+    least = to_final.time - lead.time
+    missing_angle = np.maximum(final * least - (to_final.angle - lead.angle), 0.0)
     weight = 1.0 + np.maximum(drive.brake, 0.5)
-    time = least + np.sqrt(2.0 * weight * (excess + deficit))
+    time = least + np.sqrt(2.0 * weight * (excess + missing_angle))
     for _ in range(_TIME_STEPS):
         slew = farthest_slew(drive, time, final)
         margin = slew.peak - final

@@ -61,20 +61,20 @@ class SlewReason(IntEnum):
     """The torque suffices; the drive's speed determines how large its wheel must be."""
 
 
-class Held(NamedTuple):
+class Gauge(NamedTuple):
     """Distribution of a momentum over wheels that minimises the busiest one's share.
 
     Attributes:
-        most: phi, momentum of the busiest wheel, shape (...); inf: the axes do not span it.
+        busiest: phi, momentum of the busiest wheel, shape (...); inf: the axes do not span it.
         sense: sign of the momentum of each wheel that is among the busiest, shape (..., n); 0: it
             may have less, or there is nothing to hold.
     """
 
-    most: FloatArray
+    busiest: FloatArray
     sense: FloatArray
 
 
-def held(axes: ArrayLike, momentum: ArrayLike) -> Held:
+def gauge(axes: ArrayLike, momentum: ArrayLike) -> Gauge:
     """The gauge of the zonotope of axes in closed form; see the module's docstring.
 
     Every direction m gives a lower bound, |m . b| <= sum_i |m . a_i| |x_i|, so directions that are
@@ -85,27 +85,29 @@ def held(axes: ArrayLike, momentum: ArrayLike) -> Held:
         axes: of the wheels as columns, in two or three dimensions, shape (..., d, n).
         momentum: to be held, shape (..., d).
     """
-    axes, asked = np.asarray(axes, np.float64), np.asarray(momentum, np.float64)
-    asked = asked.reshape(*(1,) * (axes.ndim - asked.ndim - 1), *asked.shape)
-    axes = _wheels_first(axes, asked.ndim - 1)
+    axes, required = np.asarray(axes, np.float64), np.asarray(momentum, np.float64)
+    required = required.reshape(*(1,) * (axes.ndim - required.ndim - 1), *required.shape)
+    axes = _wheels_first(axes, required.ndim - 1)
     axes = np.where(np.abs(axes) > OUT_OF_REACH, axes, 0.0)
-    asked = np.ascontiguousarray(np.moveaxis(asked, -1, 0))
+    required = np.ascontiguousarray(np.moveaxis(required, -1, 0))
     normals = _normals(axes)
     length = np.sqrt((normals**2).sum(axis=0))
-    reach, size = (np.sqrt((each**2).sum(axis=0)) for each in (axes, asked))
+    axis_length, momentum_length = (np.sqrt((each**2).sum(axis=0)) for each in (axes, required))
     levers = (normals[:, :, None] * axes[:, None]).sum(axis=0)
-    whole = np.abs(levers).sum(axis=1)
-    spanned = whole > _ROUNDING * length * reach.max(axis=0)
-    along = (normals * asked[:, None]).sum(axis=0)
-    along = np.where(np.abs(along) <= _ROUNDING * length * size, 0.0, along)
-    figures = np.abs(along) / np.where(spanned, whole, 1.0)
-    figures = np.where(spanned | (along == 0.0), figures, np.inf)
+    width = np.abs(levers).sum(axis=1)
+    is_facet = width > _ROUNDING * length * axis_length.max(axis=0)
+    projections = (normals * required[:, None]).sum(axis=0)
+    projections = np.where(
+        np.abs(projections) <= _ROUNDING * length * momentum_length, 0.0, projections
+    )
+    ratios = np.abs(projections) / np.where(is_facet, width, 1.0)
+    ratios = np.where(is_facet | (projections == 0.0), ratios, np.inf)
     # Without any axis there is no facet either.
-    nothing = (reach.max(axis=0) == 0.0) & (size > 0.0)
-    most = np.where(nothing, np.inf, figures.max(axis=0))
-    touched = np.where(figures >= most * (1.0 - _EDGE), np.sign(along), 0.0)
-    sense = (touched[:, None] * np.where(spanned[:, None], np.sign(levers), 0.0)).sum(axis=0)
-    return Held(most, np.moveaxis(np.sign(sense), 0, -1))
+    without_axes = (axis_length.max(axis=0) == 0.0) & (momentum_length > 0.0)
+    busiest = np.where(without_axes, np.inf, ratios.max(axis=0))
+    touched = np.where(ratios >= busiest * (1.0 - _EDGE), np.sign(projections), 0.0)
+    sense = (touched[:, None] * np.where(is_facet[:, None], np.sign(levers), 0.0)).sum(axis=0)
+    return Gauge(busiest, np.moveaxis(np.sign(sense), 0, -1))
 
 
 def without_each(axes: FloatArray) -> tuple[FloatArray, ...]:
@@ -122,7 +124,7 @@ def reach(axes: FloatArray) -> FloatArray:
     Args:
         axes: of the wheels as columns, shape (3, n).
     """
-    return np.asarray(1.0 / held(axes, np.eye(3)).most)
+    return np.asarray(1.0 / gauge(axes, np.eye(3)).busiest)
 
 
 def reach_without_one(axes: FloatArray) -> FloatArray:
@@ -130,7 +132,7 @@ def reach_without_one(axes: FloatArray) -> FloatArray:
     return np.asarray(np.min([reach(left) for left in without_each(axes)], axis=0))
 
 
-def held_by_each(axes: FloatArray, momentum: FloatArray) -> FloatArray:
+def momentum_of_each(axes: FloatArray, momentum: FloatArray) -> FloatArray:
     """Momentum of each wheel with least effort of the busiest, shape (..., n).
 
     Wheels that are not among the busiest are parallel, and share the rest.
@@ -139,13 +141,14 @@ def held_by_each(axes: FloatArray, momentum: FloatArray) -> FloatArray:
         axes: about roll and pitch, spanning the momentum, shape (..., 2, n).
         momentum: shape (..., 2).
     """
-    most, sense = held(axes, momentum)
-    busy = sense * most[..., None]
-    left = momentum - (axes * busy[..., None, :]).sum(axis=-1)
-    free = np.where(sense[..., None, :] == 0.0, axes, 0.0)
-    whole = (free**2).sum(axis=(-2, -1))
-    share = (free * left[..., None]).sum(axis=-2) / np.where(whole > 0.0, whole, 1.0)[..., None]
-    return np.asarray(busy + share)
+    busiest, sense = gauge(axes, momentum)
+    of_busiest = sense * busiest[..., None]
+    rest = momentum - (axes * of_busiest[..., None, :]).sum(axis=-1)
+    other_axes = np.where(sense[..., None, :] == 0.0, axes, 0.0)
+    squares = (other_axes**2).sum(axis=(-2, -1))
+    scale = np.where(squares > 0.0, squares, 1.0)[..., None]
+    share = (other_axes * rest[..., None]).sum(axis=-2) / scale
+    return np.asarray(of_busiest + share)
 
 
 def _wheels_first(axes: FloatArray, depth: int) -> FloatArray:
@@ -209,48 +212,50 @@ class WheelTask:
         With any one wheel missing, each figure is the worst over the missing wheels.
         """
         if self.one_stops:
-            lefts = without_each(self.axes)
-            loads = [replace(self, axes=left, one_stops=False).load() for left in lefts]
+            remaining = without_each(self.axes)
+            loads = [replace(self, axes=left, one_stops=False).load() for left in remaining]
             return WheelLoad(
                 excess=np.max([load.excess for load in loads], axis=0),
-                held=np.max([load.held for load in loads], axis=0),
+                momentum=np.max([load.momentum for load in loads], axis=0),
                 coupling=np.min([load.coupling for load in loads], axis=0),
                 initial_speed=np.max([load.initial_speed for load in loads], axis=0),
                 one_way=self.one_way,
             )
         swept, momentum, _ = np.broadcast_arrays(self.swept, self.momentum, self.axes[..., 0])
-        (turned, kept), senses = held(self.axes, np.stack([swept, momentum]))
-        turning = turned > 0.0
-        sense = np.where(turning[..., None], senses[0], senses[1])
-        most = np.where(turning, turned, kept)
-        asked = np.where(turning[..., None], swept, momentum)
+        (sweep, final_momentum), senses = gauge(self.axes, np.stack([swept, momentum]))
+        has_sweep = sweep > 0.0
+        sense = np.where(has_sweep[..., None], senses[0], senses[1])
+        largest = np.where(has_sweep, sweep, final_momentum)
+        vector = np.where(has_sweep[..., None], swept, momentum)
 
         (x, y), product = np.moveaxis(self.inertia.diagonal, -1, 0), self.inertia.product
         determinant = x * y - product**2
-        rolled, pitched, *yawed = np.moveaxis(asked, -1, 0)
+        rolled, pitched, *about_yaw = np.moveaxis(vector, -1, 0)
         rates = y * rolled - product * pitched, x * pitched - product * rolled
-        roll, pitch, *up = _wheels_first(self.axes, most.ndim)
-        own = roll**2 * y + pitch**2 * x - 2.0 * (roll * pitch) * product
-        own = own / determinant
+        roll, pitch, *yaw_parts = _wheels_first(self.axes, largest.ndim)
+        of_each_wheel = roll**2 * y + pitch**2 * x - 2.0 * (roll * pitch) * product
+        of_each_wheel = of_each_wheel / determinant
         if self.yaw_inertia is not None:
-            own = own + up[0] ** 2 / self.yaw_inertia
-        alone = own.max(axis=0)
-        usable = (most > 0.0) & np.isfinite(most)
+            of_each_wheel = of_each_wheel + yaw_parts[0] ** 2 / self.yaw_inertia
+        largest_alone = of_each_wheel.max(axis=0)
+        usable = (largest > 0.0) & np.isfinite(largest)
         sense = np.moveaxis(sense, -1, 0)
-        parts = rates[0] / determinant * roll + rates[1] / determinant * pitch
+        assistance = rates[0] / determinant * roll + rates[1] / determinant * pitch
         if self.yaw_inertia is not None:
-            parts = parts + yawed[0] / self.yaw_inertia * up[0]
-        parts = sense * parts / np.where(usable, most, 1.0)
-        least = np.where(sense == 0.0, np.inf, parts).min(axis=0)
+            assistance = assistance + about_yaw[0] / self.yaw_inertia * yaw_parts[0]
+        assistance = sense * assistance / np.where(usable, largest, 1.0)
+        least_assistance = np.where(sense == 0.0, np.inf, assistance).min(axis=0)
         # Treat opposing trunk motion as no help.
-        coupling = np.maximum(np.where(usable, least, alone), _UNHELPED * alone)
+        coupling = np.maximum(
+            np.where(usable, least_assistance, largest_alone), _UNHELPED * largest_alone
+        )
         initial_speed = np.zeros(())
         if np.any(self.initial_speed):
             # Of the busiest wheels, the one farthest along its change has the least capability
             # left.
             initial_speed = np.where(sense == 0.0, -np.inf, sense * self.initial_speed).max(axis=0)
             initial_speed = np.where(np.isfinite(initial_speed), initial_speed, 0.0)
-        return WheelLoad(turned, kept, coupling, initial_speed, self.one_way)
+        return WheelLoad(sweep, final_momentum, coupling, initial_speed, self.one_way)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -274,29 +279,29 @@ class WheelBound(WheelTask):
     def load(self) -> "WheelLoad":
         """Lower bound of the load on the busiest wheel (docs/theory.md, The selection)."""
         diagonal, product = self.inertia
-        most = TiltInertia(diagonal, np.abs(product) + self.spread)
-        share = most.share[..., None]
+        bound_inertia = TiltInertia(diagonal, np.abs(product) + self.spread)
+        share = bound_inertia.share[..., None]
         known = share < _LOOSE
 
         # Assume that coupling reduces the sweep as much as it can; an axis that may be left free
         # adds none, and reduces that of the other one.
         turn, uncoupled = np.asarray(self.turn), np.abs(self.swept)
-        both = turn.prod(axis=-1)
-        sense = np.where(both == 0.0, 1.0, np.sign(both * product))
+        product_of_turns = turn.prod(axis=-1)
+        sense = np.where(product_of_turns == 0.0, 1.0, np.sign(product_of_turns * product))
         coupled = sense * np.abs(product) - self.spread
         least = np.maximum(uncoupled + coupled[..., None] * np.abs(turn[..., ::-1]), 0.0)
-        left = np.where(self.reached[..., ::-1], 1.0, 1.0 - share**2)
-        least = np.where(self.reached | (turn != 0.0), least, uncoupled) * left
+        reduction = np.where(self.reached[..., ::-1], 1.0, 1.0 - share**2)
+        least = np.where(self.reached | (turn != 0.0), least, uncoupled) * reduction
 
         swept, momentum = np.where(known, least, 0.0), np.where(known, self.momentum, 0.0)
-        alone = TiltInertia.uncoupled(diagonal)
-        load = WheelTask(swept, momentum, self.duration, alone, self.axes).load()
+        uncoupled_inertia = TiltInertia.uncoupled(diagonal)
+        load = WheelTask(swept, momentum, self.duration, uncoupled_inertia, self.axes).load()
         # |a . K b| for the longest axis a about roll and pitch, and any b of the zonotope.
         lengths = np.abs(self.axes) / np.sqrt(diagonal)[..., None]
         longest, whole, rho = lengths.max(axis=-1), lengths.sum(axis=-1), np.minimum(share, _LOOSE)
-        gives = (longest * (whole + rho * whole[..., ::-1]) / (1.0 - rho**2)).sum(axis=-1)
+        coupling = (longest * (whole + rho * whole[..., ::-1]) / (1.0 - rho**2)).sum(axis=-1)
         initial_speed = -np.abs(self.initial_speed)
-        return replace(load, coupling=gives, initial_speed=initial_speed, one_way=self.one_way)
+        return replace(load, coupling=coupling, initial_speed=initial_speed, one_way=self.one_way)
 
 
 @dataclass(frozen=True, eq=False)
@@ -305,27 +310,27 @@ class WheelLoad:
 
     Attributes:
         excess: phi(P) [N m s^2]; inf: an axis is out of reach.
-        held: phi(L) [N m s]; inf: an axis is out of reach.
+        momentum: phi(L) [N m s]; inf: an axis is out of reach.
         coupling: kappa [1 / (kg m^2)].
         initial_speed: of that wheel, positive in the direction of its change [rad/s].
         one_way: whether it does not really return to that speed.
     """
 
     excess: FloatArray
-    held: FloatArray
+    momentum: FloatArray
     coupling: FloatArray
     initial_speed: FloatArray
     one_way: ArrayLike
 
-    def started(self, line: DriveLine) -> tuple[DriveLine, FloatArray]:
+    def from_initial_speed(self, line: DriveLine) -> tuple[DriveLine, FloatArray]:
         """Line of the wheel's drive, and the speed [rad/s] on it at which the wheel starts.
 
         That of a wheel which does not return is the line for the change of speed: what it really
         does on the way back is not in the load, and the line is as good there as for a wheel that
         starts at rest (docs/theory.md, About a pivot).
         """
-        changed = np.where(self.one_way, self.initial_speed, 0.0)
-        return line.from_speed(changed), self.initial_speed - changed
+        offset = np.where(self.one_way, self.initial_speed, 0.0)
+        return line.from_speed(offset), self.initial_speed - offset
 
     def angle(self, spin_inertia: ArrayLike) -> FloatArray:
         """Angle by which a wheel of that spin inertia turns beyond its final speed [rad]."""
@@ -333,7 +338,7 @@ class WheelLoad:
 
     def final_speed(self, spin_inertia: ArrayLike) -> FloatArray:
         """W_f, final speed in addition to that at the start [rad/s]."""
-        return np.asarray(self.held / np.asarray(spin_inertia))
+        return np.asarray(self.momentum / np.asarray(spin_inertia))
 
     def reduced_inertia(self, spin_inertia: ArrayLike, armature: ArrayLike = 0.0) -> FloatArray:
         """I_red, effective inertia that the motor accelerates on the free trunk [kg m^2]."""
@@ -353,14 +358,14 @@ def wheel_slew_time(
         line: of the drive at the wheel, shape (...).
         armature: I_m - h [kg m^2], shape (...).
     """
-    load, given = task.load(), np.asarray(spin_inertia, dtype=np.float64)
-    has_wheel = (given > 0.0) & np.isfinite(given)
-    half = 1.0 / (2.0 * load.coupling)
-    h = np.where(has_wheel, np.minimum(given, half), half)
-    own, initial_speed = load.started(line)
+    load, requested = task.load(), np.asarray(spin_inertia, dtype=np.float64)
+    has_wheel = (requested > 0.0) & np.isfinite(requested)
+    largest = 1.0 / (2.0 * load.coupling)
+    h = np.where(has_wheel, np.minimum(requested, largest), largest)
+    shifted_line, initial_speed = load.from_initial_speed(line)
     reduced = load.reduced_inertia(h, armature)
-    time = slew_time(load.angle(h), reduced, own, load.final_speed(h), initial_speed)
-    return np.where(has_wheel | (load.excess + load.held == 0.0), time, np.inf)
+    time = slew_time(load.angle(h), reduced, shifted_line, load.final_speed(h), initial_speed)
+    return np.where(has_wheel | (load.excess + load.momentum == 0.0), time, np.inf)
 
 
 def smallest_spin_inertia(
@@ -392,13 +397,13 @@ def spin_demand(
     load = task.load()
     duration = np.asarray(task.duration, dtype=np.float64)
     return SweepDemand(
-        sweep=load.excess + load.held * np.maximum(duration, 0.0),
-        momentum=load.held,
+        sweep=load.excess + load.momentum * np.maximum(duration, 0.0),
+        momentum=load.momentum,
         duration=duration,
         coupling=load.coupling,
         armature=np.asarray(armature, dtype=np.float64),
         least=np.asarray(least, dtype=np.float64),
-        drive=UnitDrive.of(*load.started(line)),
+        drive=UnitDrive.of(*load.from_initial_speed(line)),
     )
 
 
@@ -411,17 +416,18 @@ def slew_reason(task: WheelTask, line: DriveLine) -> NDArray[np.int_]:
     torque.
     """
     load = task.load()
-    drive = UnitDrive.of(*load.started(line))
+    drive = UnitDrive.of(*load.from_initial_speed(line))
     there, back = (
-        drive.torque * drive.forwards(at) for at in (drive.initial_speed, -drive.initial_speed)
+        drive.torque * drive.forward_torque(at)
+        for at in (drive.initial_speed, -drive.initial_speed)
     )
     duration = np.maximum(np.asarray(task.duration, dtype=np.float64), 0.0)
-    final = load.held
+    final = load.momentum
     with np.errstate(invalid="ignore"):
         # Constant torques change a wheel's momentum by tau t, up to its peak and back down.
         peak = there * (back * duration + final) / positive(there + back)
         swept = peak**2 / (2.0 * positive(there)) + (peak**2 - final**2) / (2.0 * positive(back))
         done = np.where(drive.torque > 0.0, swept, 0.0) - final * duration
-        weak = np.where(peak >= final, done, -np.inf) < load.excess
-    reason = np.where(weak, SlewReason.TORQUE, SlewReason.SPEED)
-    return np.where(np.isinf(load.excess + load.held), SlewReason.AXIS, reason)
+        lacks_torque = np.where(peak >= final, done, -np.inf) < load.excess
+    reason = np.where(lacks_torque, SlewReason.TORQUE, SlewReason.SPEED)
+    return np.where(np.isinf(load.excess + load.momentum), SlewReason.AXIS, reason)

@@ -120,7 +120,7 @@ def make_campaign(
         DesignedFlight(maneuver, world, stands, objection(world))
         for maneuver, world, stands in zip(flights.maneuvers, worlds, can_stand, strict=True)
     )
-    limits = MotorLimits.of(device.motor.at_the_air_gap, device.supply, len(device.modules))
+    limits = MotorLimits.of(device.motor.without_friction, device.supply, len(device.modules))
     air, hold = air_drag(device.flywheel), flights.options.hold
     return Campaign(designed, uncertainty, air, limits, seed, hold)
 

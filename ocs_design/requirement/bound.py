@@ -197,7 +197,7 @@ def spin_demands(
     found = []
     for maneuver in requirement.maneuvers:
         at = incidence if maneuver.incidence is None else maneuver.incidence
-        turned = whole.within_reach(authority(at), maneuver.stray)
+        turned = whole.within_reach(authority(at), maneuver.tilt_per_drift)
         momentum, torque = maneuver.momentum(turned, height), maneuver.least_torque(turned, height)
         slew = maneuver.slew(turned, height)
         _, pitch = slew.swept if slew.swept.any() else slew.momentum

@@ -189,7 +189,7 @@ class Maneuver(ABC):
         return np.zeros_like(inertia), np.zeros_like(inertia)
 
     @property
-    def stray(self) -> float:
+    def tilt_per_drift(self) -> float:
         """Tilt at the end per radian that the trunk has drifted about the other axis [1].
 
         The chord of the turn [rad]: a whole turn ends where it began (`TiltInertia.within_reach`).

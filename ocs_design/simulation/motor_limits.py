@@ -64,7 +64,7 @@ class MotorLimits(Table):
         elif motor.stall_torque is not None:
             line = replace(
                 line,
-                no_load_speed=motor.line_left * motor.no_load_speed,
+                no_load_speed=motor.friction_factor * motor.no_load_speed,
                 line_slope=motor.no_load_speed / motor.stall_torque,
             )
         if supply is None or motor.resistance is None or motor.torque_constant is None:

@@ -17,7 +17,7 @@ from ocs_design.actuation.drive import PLANNED, Drive, DriveLine
 from ocs_design.actuation.spin_root import SweepDemand, capability
 from ocs_design.actuation.tilt_inertia import OUT_OF_REACH, TiltInertia
 from ocs_design.actuation.unit_drive import UnitDrive
-from ocs_design.actuation.wheel_load import WheelTask, held_by_each, spin_demand
+from ocs_design.actuation.wheel_load import WheelTask, momentum_of_each, spin_demand
 from ocs_design.common.arrays import FloatArray
 from ocs_design.device.records.selection import (
     ManeuverReserveRecord,
@@ -428,7 +428,7 @@ class _SampledManeuver:
         """The maneuver of the sampled robots."""
         at = device.incidence if maneuver.incidence is None else maneuver.incidence
         reached = np.abs(device.layout.axes(at)[:2]).max(axis=1)
-        nominal = inertia_at(problem, device, at).within_reach(reached, maneuver.stray)
+        nominal = inertia_at(problem, device, at).within_reach(reached, maneuver.tilt_per_drift)
         # I_xx = S_y + S_z and I_yy = S_x + S_z, of the trunk's second moments S.
         moments = errors.trunk * drawn["inertia_error"]
         from_inertia = moments[:, 2:] + moments[:, 1::-1]
@@ -533,7 +533,7 @@ class _SampledManeuver:
         Axes that the wheels cannot control are ignored.
         """
         controlled = self._controlled
-        return held_by_each(self.axes * controlled[:, None], momentum * controlled)
+        return momentum_of_each(self.axes * controlled[:, None], momentum * controlled)
 
     def sweeps(self, line: DriveLine, reliability: float) -> tuple[FloatArray, FloatArray]:
         """Sweep required of each wheel and possible [N m s^2], signed, shape (robots, n)."""
@@ -555,7 +555,7 @@ class _SampledManeuver:
             coupling=np.asarray(load.coupling.item()),
             armature=np.asarray(self.device.drive.armature),
             least=np.zeros(1),
-            drive=UnitDrive.of(*load.started(line.reserved(self.share))),
+            drive=UnitDrive.of(*load.from_initial_speed(line.reserved(self.share))),
         )
         possible = capability(demand, np.asarray(self.device.spin_inertia)).sweep
         return required, np.copysign(possible, required)

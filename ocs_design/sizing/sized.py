@@ -6,7 +6,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ocs_design.actuation.wheel_load import held
+from ocs_design.actuation.wheel_load import gauge
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.records import recorded
 from ocs_design.device.device import Device
@@ -116,9 +116,11 @@ def _spin_demands(problem: SelectionProblem, chosen: Candidate) -> Iterator[Spin
             torque = 0.0
         else:
             axes = chosen.layout.axes(incidence)[:2]
-            reached_inertia = inertia.within_reach(np.abs(axes).max(axis=1), maneuver.stray)
+            reached_inertia = inertia.within_reach(
+                np.abs(axes).max(axis=1), maneuver.tilt_per_drift
+            )
             momentum = maneuver.momentum(reached_inertia, height)
-            torque = float(held(axes, maneuver.least_torque(reached_inertia, height)).most)
+            torque = float(gauge(axes, maneuver.least_torque(reached_inertia, height)).busiest)
         yield SpinDemand(demand.source, incidence, momentum, demand.spin_inertia, torque)
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from ocs_design.actuation.drive import speed_limit
 from ocs_design.actuation.motor import Motor, Mounting
 from ocs_design.actuation.tilt_inertia import TiltInertia
-from ocs_design.actuation.wheel_load import held, without_each
+from ocs_design.actuation.wheel_load import gauge, without_each
 from ocs_design.catalogue.materials import material
 from ocs_design.common.arrays import FloatArray, vector
 from ocs_design.common.errors import Constraint, Infeasible, SpecificationError, UsageError
@@ -285,7 +285,7 @@ def require_survival(problem: SelectionProblem) -> None:
         # Both signs, as roll and pitch momentum together may lie along an axis by chance.
         signed = momentum * np.array([[1.0, 1.0], [1.0, -1.0]])
         for wheel, remaining in zip(layout.names, without_each(axes), strict=True):
-            if not np.isfinite(held(remaining, signed).most).all():
+            if not np.isfinite(gauge(remaining, signed).busiest).all():
                 lost.setdefault(wheel, []).append(name)
     if lost:
         wheel, names = next(iter(lost.items()))

@@ -28,7 +28,7 @@ from ocs_design.actuation.motor import (
     six_step_current,
     six_step_torque_constant,
 )
-from ocs_design.actuation.tilt_inertia import STRAY_MAX, TiltInertia
+from ocs_design.actuation.tilt_inertia import DRIFT_MAX, TiltInertia
 from ocs_design.common.errors import OcsError
 
 RPM = math.pi / 30.0
@@ -204,7 +204,7 @@ def test_an_uncontrolled_axis_follows_and_reduces_the_inertia():
 
 def test_an_axis_may_be_uncontrolled_only_if_it_ends_level():
     tilt = TiltInertia.of(INERTIA)
-    limit = STRAY_MAX / tilt.drift[0]
+    limit = DRIFT_MAX / tilt.drift[0]
     assert tilt.within_reach(PITCH_ONLY, 0.999 * limit).product == 0.0
     assert tilt.within_reach(PITCH_ONLY, 1.001 * limit).product == tilt.product
     assert tilt.within_reach(np.array([0.1, 0.99]), 0.0) is tilt

@@ -109,7 +109,7 @@ def test_idle_wheels_do_not_level_a_tilted_fall_and_the_law_does(flight):
 
 def test_full_action_is_the_available_torque(flight):
     flight.reset(options={"maneuver": "drop", "sample": 0})
-    motor = flight._flights.device.motor.at_the_air_gap
+    motor = flight._flights.device.motor.without_friction
     for _ in range(40):
         readings = flight._pilot.readings
         limit = readings.highest

@@ -66,7 +66,9 @@ def test_a_flip_peaks_at_twice_its_mean_rate():
 def test_stray_of_a_flip_is_the_chord_of_its_angle(angle):
     """Distance of a unit vector along the trunk from its start; zero after a full turn."""
     moved = Rotation.from_rotvec([0.0, angle, 0.0]).apply([1.0, 0.0, 0.0]) - [1.0, 0.0, 0.0]
-    assert replace(FLIP, angle=angle).stray == pytest.approx(np.linalg.norm(moved), abs=1e-14)
+    assert replace(FLIP, angle=angle).tilt_per_drift == pytest.approx(
+        np.linalg.norm(moved), abs=1e-14
+    )
 
 
 def test_least_torque_gives_the_momentum_in_half_the_time():

@@ -67,7 +67,7 @@ def test_friction_takes_its_part_of_the_voltage():
     limits = MotorLimits.of(with_friction)
     assert limits.no_load_speed == pytest.approx(1200.0 - 2.5)
     assert limits.line_slope == pytest.approx(1200.0 / 4.8)
-    assert with_friction.line_left == pytest.approx(1.0 - 0.05 / 24.0)
+    assert with_friction.friction_factor == pytest.approx(1.0 - 0.05 / 24.0)
 
 
 @pytest.mark.parametrize(

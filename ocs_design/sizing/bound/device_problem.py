@@ -133,7 +133,9 @@ def design_momenta(requirement: Requirement, inertia: FloatArray) -> FloatArray:
     whole, height = TiltInertia.of(inertia), requirement.standing_height
     alone = TiltInertia.uncoupled(whole.diagonal)
     found = [
-        maneuver.momentum(whole if whole.strays(maneuver.stray).any() else alone, height)
+        maneuver.momentum(
+            whole if whole.drifts_off_level(maneuver.tilt_per_drift).any() else alone, height
+        )
         for maneuver in requirement.maneuvers
         if maneuver.incidence is None
     ]

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 from ocs_design.actuation.drive import DriveLine
 from ocs_design.actuation.spin_root import capability, newton_step
 from ocs_design.actuation.tilt_inertia import OUT_OF_REACH, TiltInertia
-from ocs_design.actuation.wheel_load import WheelTask, held, spin_demand, without_each
+from ocs_design.actuation.wheel_load import WheelTask, gauge, spin_demand, without_each
 from ocs_design.common.arrays import FloatArray
 from ocs_design.device.records.selection import TaskDemand
 from ocs_design.requirement.bound import AXES, rate_momenta, turned_roll
@@ -146,7 +146,8 @@ def wheel_task(
     axes = axes if headed else axes[..., :2, :]
     inertia, reach = inertia.times(axes.shape[:-2]), np.abs(axes[..., :2, :]).max(axis=-1)
     inertias = [
-        maneuver.turned(inertia).within_reach(reach, maneuver.stray) for maneuver in maneuvers
+        maneuver.turned(inertia).within_reach(reach, maneuver.tilt_per_drift)
+        for maneuver in maneuvers
     ]
     have_rate = [False] * len(maneuvers) if with_rate is None else with_rate
     slews = [
@@ -211,7 +212,7 @@ def rate_change_momenta(
     signed = momenta[..., None, :] * np.array([[1.0, 1.0], [1.0, -1.0]])
     remaining = without_each(axes) if one_stops else (axes,)
     busiest = [
-        held(wheels[..., None, None, :, :], signed).most.max(axis=-1) for wheels in remaining
+        gauge(wheels[..., None, None, :, :], signed).busiest.max(axis=-1) for wheels in remaining
     ]
     return np.asarray(np.max(busiest, axis=0))
 

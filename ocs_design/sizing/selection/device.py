@@ -73,7 +73,7 @@ def with_demands(problem: SelectionProblem, device: Candidate) -> Candidate:
         least_inertia = max(least_inertia, float(momentum) / top_speed)
         load = task.load()
         reduced = load.reduced_inertia(spin, device.drive.armature)
-        shifted_line, initial_speed = load.started(line)
+        shifted_line, initial_speed = load.from_initial_speed(line)
         profile = slew_profile(
             load.angle(spin), reduced, shifted_line, load.final_speed(spin), initial_speed
         )

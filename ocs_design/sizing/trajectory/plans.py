@@ -437,8 +437,10 @@ def drive_line_of(device: "Device") -> DriveLine:
         left = power_less_friction(supply, wheels, motor, peak)
         power = motor.gear_efficiency * left / wheels
     return DriveLine(
-        stall_torque=inf if motor.stall_torque is None else motor.line_left * motor.stall_torque,
-        no_load_speed=motor.line_left * motor.no_load_speed,
+        stall_torque=inf
+        if motor.stall_torque is None
+        else motor.friction_factor * motor.stall_torque,
+        no_load_speed=motor.friction_factor * motor.no_load_speed,
         torque_limit=inf if motor.torque_limit is None else motor.torque_limit,
         speed_max=inf if motor.speed_max is None else motor.speed_max,
         power_max=power,
