@@ -1,6 +1,8 @@
 """Motors, gears and wheels for tests; only the EC 45 is a real product."""
 
-from ocs_design.actuation.drive import drive_line
+from math import inf
+
+from ocs_design.actuation.drive import DriveLine, drive_line
 from ocs_design.actuation.motor import DIRECT, Gear, Motor
 from ocs_design.actuation.supply import Supply
 from ocs_design.catalogue.materials import Material
@@ -26,6 +28,9 @@ EC45 = Motor(
     source="docs/theory.md",
     confidence="good",
 )
+
+EC45_LINE = DriveLine(stall_torque=1.4566, no_load_speed=650.4, torque_limit=1.0, speed_max=inf)
+"""Torque-speed line of the EC 45 at 24 V, its drive limited to 1.0 N m (docs/theory.md)."""
 
 BELT = Gear(
     name="belt 2:1",

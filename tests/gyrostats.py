@@ -4,9 +4,9 @@ from dataclasses import dataclass, replace
 
 import casadi as ca
 import numpy as np
+from driven_wheels import EC45_LINE
 from scipy.spatial.transform import Rotation
 
-from ocs_design.actuation.drive import DriveLine
 from ocs_design.device.layout import module_axes
 from ocs_design.requirement.boundary import End
 from ocs_design.requirement.pushes import Disturbance
@@ -18,9 +18,6 @@ from ocs_design.sizing.trajectory.transcription import Phase, Plant
 
 DIAGONAL = np.diag([0.030, 0.0535, 0.068])
 FULL = np.array([[0.030, 0.001, 0.003], [0.001, 0.0535, -0.002], [0.003, -0.002, 0.068]])
-EC_45_FLAT = DriveLine(stall_torque=1.4566, no_load_speed=650.4, torque_limit=1.0, speed_max=np.inf)
-"""Torque-speed line of the 70 W motor at 24 V, its drive limited to 1.0 N m."""
-
 FALL = 0.385
 """Time of the fall [s]."""
 
@@ -95,9 +92,9 @@ def smallest_wheels(guess, boundary, *, free_incidence=False, start=None, passes
     variables = Dimensions(
         np.array([1.0, incidence]), lower, upper, lambda dimensions: dimensions[0]
     )
-    solution = solve([turn], EC_45_FLAT, passes, variables)
+    solution = solve([turn], EC45_LINE, passes, variables)
     factor, incidence = solution.dimensions
     axes = module_axes(incidence) if free_incidence else guess.axes
     gyrostat = replace(guess, spin_inertia=guess.spin_inertia * factor, axes=axes)
-    flight = fly(replace(turn, gyrostat=gyrostat), EC_45_FLAT, solution.motions[0])
+    flight = fly(replace(turn, gyrostat=gyrostat), EC45_LINE, solution.motions[0])
     return SmallestWheels(**vars(flight), gyrostat=gyrostat, incidence=incidence, solution=solution)

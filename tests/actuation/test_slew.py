@@ -10,6 +10,7 @@ from itertools import pairwise, product
 
 import numpy as np
 import pytest
+from driven_wheels import EC45_LINE
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
@@ -30,7 +31,6 @@ from ocs_design.actuation.unit_drive import (
 )
 
 INF = np.inf
-EC45 = DriveLine(1.4566, 650.4, 1.0, INF)
 
 
 def random_slews(rng, count):
@@ -212,14 +212,14 @@ def test_impossible_slews():
 
 
 def test_no_angle_takes_no_time_but_a_final_speed_does():
-    assert slew_time(0.0, 9e-5, EC45) == 0.0
+    assert slew_time(0.0, 9e-5, EC45_LINE) == 0.0
     # Beyond 100 rad/s and back, so that the mean is 100: the peak is W_f (1 + 1 / sqrt 2).
     expected = 9e-5 / 1.0 * (2.0 * (1.0 + np.sqrt(0.5)) - 1.0) * 100.0
-    assert slew_time(0.0, 9e-5, EC45, 100.0) == pytest.approx(expected, rel=1e-13)
+    assert slew_time(0.0, 9e-5, EC45_LINE, 100.0) == pytest.approx(expected, rel=1e-13)
 
 
 def test_without_power_no_slew_is_possible():
-    line = DriveLine(1.4566, 650.4, 1.0, INF, power_max=0.0)
+    line = replace(EC45_LINE, power_max=0.0)
     assert np.isinf(slew_time([1.0, 0.0], 9e-5, line, [0.0, 100.0])).all()
     assert slew_time(0.0, 9e-5, line) == 0.0
     assert np.isnan(slew_profile(1.0, 9e-5, line).end)
@@ -297,16 +297,31 @@ def integrated(line, profile, motor, initial_speed=0.0):
     return peak, *down.y[:, -1]
 
 
+def power(line, speed, torque):
+    """R i^2 plus mechanical power [W], by V = R i + k_t w."""
+    return torque * (torque * line.no_load_speed / line.stall_torque + speed)
+
+
+def by_the_motor_equation(line, speed, sense):
+    """Torque by V = R i + k_t w within current and power [N m], driving or braking.
+
+    Currents are limited to that whose heat alone needs all the power.
+    """
+    along, heat = sense * speed, line.no_load_speed / line.stall_torque
+    heat_limit = np.sqrt(line.power_max / heat)
+    torque = min(line.torque_limit, heat_limit, line.stall_torque - along / heat)
+    if power(line, along, torque) > line.power_max:
+        torque = (np.sqrt(along**2 + 4.0 * heat * line.power_max) - along) / (2.0 * heat)
+    elif along < -2.0 * np.sqrt(heat * line.power_max):
+        feedback_limit = (-along - np.sqrt(along**2 - 4.0 * heat * line.power_max)) / (2.0 * heat)
+        torque = min(torque, feedback_limit)
+    return sense * torque
+
+
 @pytest.mark.parametrize(("phi", "lam", "speed_max", "final"), CASES[2::5])
 def test_the_motor_equation_gives_the_same_profile(phi, lam, speed_max, final):
-    """The torque follows from `V = R i + k_t W` with limited current."""
     line = DriveLine(STALL, NO_LOAD, lam * STALL, speed_max)
-    profile = slew_profile(phi, INERTIA, line, final)
-
-    def motor(speed, sense):
-        torque = sense * line.stall_torque * (1.0 - sense * speed / line.no_load_speed)
-        return np.clip(torque, -line.torque_limit, line.torque_limit)
-
+    profile, motor = slew_profile(phi, INERTIA, line, final), partial(by_the_motor_equation, line)
     peak, last, angle = integrated(line, profile, motor)
     assert profile.peak_speed == pytest.approx(peak, rel=1e-8)
     assert last == pytest.approx(final, abs=1e-8 * NO_LOAD)
@@ -343,11 +358,6 @@ def test_arrays_with_impossible_slews():
 STRONG, FAST = 8.0, 1100.0
 STALL_POWER = STRONG * FAST
 """V^2 / R [W]."""
-
-
-def power(line, speed, torque):
-    """R i^2 plus mechanical power [W], by V = R i + k_t w."""
-    return torque * (torque * line.no_load_speed / line.stall_torque + speed)
 
 
 def strongest(line, speed, sense):
@@ -394,26 +404,10 @@ def test_the_motor_equation_gives_the_same_profile_on_a_weak_supply(share, lam, 
     phi, final = slew
     line = DriveLine(STRONG, FAST, lam * STRONG, speed_max, share * STALL_POWER)
     profile = slew_profile(phi, INERTIA, line, final)
-    peak, last, angle = integrated(line, profile, lambda *state: torque_at(line, *state).item())
+    peak, last, angle = integrated(line, profile, partial(by_the_motor_equation, line))
     assert profile.peak_speed == pytest.approx(peak, rel=1e-6)
     assert last == pytest.approx(final, abs=1e-6 * FAST)
     assert angle - final * float(profile.end) == pytest.approx(phi, rel=1e-6)
-
-
-def by_the_motor_equation(line, speed, sense):
-    """Torque by V = R i + k_t w within current and power [N m], driving or braking.
-
-    Currents are limited to that whose heat alone needs all the power.
-    """
-    along, heat = sense * speed, line.no_load_speed / line.stall_torque
-    heat_limit = np.sqrt(line.power_max / heat)
-    torque = min(line.torque_limit, heat_limit, line.stall_torque - along / heat)
-    if power(line, along, torque) > line.power_max:
-        torque = (np.sqrt(along**2 + 4.0 * heat * line.power_max) - along) / (2.0 * heat)
-    elif along < -2.0 * np.sqrt(heat * line.power_max):
-        feedback_limit = (-along - np.sqrt(along**2 - 4.0 * heat * line.power_max)) / (2.0 * heat)
-        torque = min(torque, feedback_limit)
-    return sense * torque
 
 
 @pytest.mark.parametrize("slew", [(0.5, 0.0), (150.0, 0.0), (20.0, 100.0)])

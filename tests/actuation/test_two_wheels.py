@@ -5,9 +5,10 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from driven_wheels import EC45_LINE
 from scipy.integrate import solve_ivp
 
-from ocs_design.actuation.drive import DriveLine, armature, rotor_share
+from ocs_design.actuation.drive import armature, rotor_share
 from ocs_design.actuation.fasteners import IN_PLASTIC, SCREWS, screw
 from ocs_design.actuation.motor import DIRECT, Gear
 from ocs_design.actuation.slew import slew_profile
@@ -18,7 +19,6 @@ from ocs_design.device.layout import module_axes
 
 INF = np.inf
 TRUNK, TRANSVERSE, ROTOR = np.array([0.030, 0.0535]), 4e-5, 1.81e-5
-LINE = DriveLine(1.4566, 650.4, 1.0, INF)
 BELT = Gear("belt", 3.0, 1.0, 0.0, 2e-6, INF, INF, INF, False, "test")
 SPUR = Gear("spur", 2.5, 1.0, 0.0, 1e-6, INF, INF, INF, True, "test")
 FASTER = Gear("faster", 0.5, 1.0, 0.0, 0.0, INF, INF, INF, False, "test")
@@ -71,8 +71,8 @@ class Pair:
 
 def motor_torque(speed, direction):
     """Torque at the wheel from full voltage in `direction`, with limited current [N m]."""
-    torque = LINE.stall_torque * (direction - speed / LINE.no_load_speed)
-    return np.clip(torque, -LINE.torque_limit, LINE.torque_limit)
+    torque = EC45_LINE.stall_torque * (direction - speed / EC45_LINE.no_load_speed)
+    return np.clip(torque, -EC45_LINE.torque_limit, EC45_LINE.torque_limit)
 
 
 def flight(pair, rate, drive, times):
@@ -108,7 +108,7 @@ def test_a_slew_about_pitch(pair, angle, rate):
     profile = slew_profile(
         load.angle(pair.spin_inertia),
         load.reduced_inertia(pair.spin_inertia, pair.armature),
-        LINE,
+        EC45_LINE,
         final,
     )
 
@@ -146,7 +146,9 @@ def test_a_slew_about_both_axes(pair, angle):
     """
     load = pair.task(angle, [0.0, 0.0]).load()
     profile = slew_profile(
-        load.angle(pair.spin_inertia), load.reduced_inertia(pair.spin_inertia, pair.armature), LINE
+        load.angle(pair.spin_inertia),
+        load.reduced_inertia(pair.spin_inertia, pair.armature),
+        EC45_LINE,
     )
     roll, pitch = pair.mass_matrix[:2, :2] @ angle
     roll, pitch = roll / np.sin(pair.incidence), pitch / np.cos(pair.incidence)

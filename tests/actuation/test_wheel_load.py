@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from driven_wheels import EC45_LINE
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
@@ -27,7 +28,6 @@ from ocs_design.actuation.wheel_load import (
 from ocs_design.device.layout import PAIR, Layout, LayoutName
 
 INF = np.inf
-EC45 = DriveLine(1.4566, 650.4, 1.0, INF)
 ANTIGRAVITY = DriveLine(24.0 * 0.025 / 0.4651, 960.0, 0.30, INF)
 ROLL, BODY = 0.030, 0.0535
 """Inertia of the trunk with the wheels' mass, without their spin inertia [kg m^2]."""
@@ -55,7 +55,7 @@ def own_fixed_point(degrees, duration, incidence):
     """Spin inertia sufficient for the turn of the body including these wheels."""
     h = 0.0
     for _ in range(30):
-        h = float(smallest_spin_inertia(pitch_turn(degrees, duration, incidence, h), EC45))
+        h = float(smallest_spin_inertia(pitch_turn(degrees, duration, incidence, h), EC45_LINE))
     return h
 
 
@@ -67,7 +67,7 @@ def lumped(degrees, incidence, spin_inertia):
     share = 2.0 * np.cos(incidence)
     wheel = share * spin_inertia
     xi, reduced = wheel / (wheel + BODY), wheel * BODY / (wheel + BODY)
-    return slew_profile(np.radians(degrees) / xi, reduced / share, EC45)
+    return slew_profile(np.radians(degrees) / xi, reduced / share, EC45_LINE)
 
 
 @pytest.mark.parametrize(
@@ -86,7 +86,7 @@ def test_worked_examples(degrees, duration, incidence, published, exact):
     h = own_fixed_point(degrees, duration, angle)
     assert h == pytest.approx(exact, rel=1e-5)
     assert h <= published * (1.0 + 5e-4)
-    at_own = wheel_slew_time(pitch_turn(degrees, duration, angle, h), h, EC45)
+    at_own = wheel_slew_time(pitch_turn(degrees, duration, angle, h), h, EC45_LINE)
     assert at_own == pytest.approx(duration, rel=1e-12)
     if incidence == 0.0:
         assert float(lumped(degrees, angle, h).end) == pytest.approx(duration, rel=1e-12)
@@ -289,20 +289,20 @@ def test_an_uncontrolled_axis():
         (0.7, turn, True),
     ]:
         task = WheelTask(swept, [0.0, 0.0], 1.0, axes(ROLL, BODY), pair(incidence))
-        assert np.isfinite(smallest_spin_inertia(task, EC45)) == reachable
-        assert (slew_reason(task, EC45) == SlewReason.AXIS) != reachable
+        assert np.isfinite(smallest_spin_inertia(task, EC45_LINE)) == reachable
+        assert (slew_reason(task, EC45_LINE) == SlewReason.AXIS) != reachable
 
 
 def test_empty_and_impossible_tasks():
     empty = WheelTask([0.0, 0.0], [0.0, 0.0], 0.5, axes(ROLL, BODY), pair(0.6))
-    assert smallest_spin_inertia(empty, EC45) == 0.0
-    assert smallest_roots([spin_demand(empty, EC45, least=3e-5)])[0] == 3e-5
-    assert wheel_slew_time(empty, [0.0, 1e-4, INF], EC45).tolist() == [0.0, 0.0, 0.0]
+    assert smallest_spin_inertia(empty, EC45_LINE) == 0.0
+    assert smallest_roots([spin_demand(empty, EC45_LINE, least=3e-5)])[0] == 3e-5
+    assert wheel_slew_time(empty, [0.0, 1e-4, INF], EC45_LINE).tolist() == [0.0, 0.0, 0.0]
     turn = WheelTask([0.0, 0.01], [0.0, 0.0], 0.5, axes(ROLL, BODY), pair([0.6, 0.6, np.pi / 2]))
-    assert np.isinf(wheel_slew_time(turn, [0.0, INF, 1e-4], EC45)).all()
+    assert np.isinf(wheel_slew_time(turn, [0.0, INF, 1e-4], EC45_LINE)).all()
     late = WheelTask([0.0, 0.01], [0.0, 0.01], [0.0, -0.1], axes(ROLL, BODY), pair(0.6))
-    assert np.isinf(smallest_spin_inertia(late, EC45)).all()
-    assert (slew_reason(late, EC45) == SlewReason.TORQUE).all()
+    assert np.isinf(smallest_spin_inertia(late, EC45_LINE)).all()
+    assert (slew_reason(late, EC45_LINE) == SlewReason.TORQUE).all()
 
 
 def test_drives_incidences_and_turns_broadcast():
@@ -390,7 +390,7 @@ def test_layouts_against_optimal_control(layout):
     for turn in ([0.0, 30.0], [20.0, 20.0]):
         swept = np.array([ROLL, BODY]) * np.radians(turn)
         task = WheelTask(swept, np.zeros(2), 0.385, axes(ROLL, BODY), layout.axes(elevation)[:2])
-        found.append(float(smallest_spin_inertia(task, EC45)))
+        found.append(float(smallest_spin_inertia(task, EC45_LINE)))
     pitch, both = LAYOUTS[layout]
     assert 0.97 < found[0] / pitch < 0.995
     if np.isinf(both):
@@ -447,7 +447,7 @@ def test_wheels_that_control_yaw_turn_it_directly(name, elevation, published):
     wheels, yaw_inertia = Layout(name).axes(np.radians(elevation)), np.array(0.068)
     swept = np.array([0.0, 0.0, yaw_inertia * np.pi / 2.0])
     turn = WheelTask(swept, np.zeros(3), 2.0, axes(ROLL, BODY), wheels, yaw_inertia=yaw_inertia)
-    smallest, gain = float(smallest_spin_inertia(turn, EC45)), np.abs(wheels[2]).sum()
+    smallest, gain = float(smallest_spin_inertia(turn, EC45_LINE)), np.abs(wheels[2]).sum()
     required = np.pi / 2.0 * 0.068 / gain
     reduced = smallest - smallest**2 * gain * np.abs(wheels[2]).max() / 0.068
     assert smallest * largest_swept_angle(reduced) == pytest.approx(required, rel=1e-6)

@@ -58,12 +58,38 @@ def test_missing_data_of_a_motor_are_named():
 
 
 @pytest.mark.parametrize(
-    "name", ["wheel speed", "motor torque", "bus current, fed back", "hoop stress"]
+    ("mounting", "margins", "joints", "fault"),
+    [
+        *(
+            (
+                FREE,
+                (margin(name, 1200.0, 1000.0),),
+                (),
+                f"{name}: 1,200 W required by drop, 1,000 W allowed",
+            )
+            for name in ("wheel speed", "motor torque", "bus current, fed back", "hoop stress")
+        ),
+        (
+            FREE,
+            (),
+            (Margin("rim joint", 2.0, 1.0, "N m"),),
+            "rim joint: 2 N m required, 1 N m available",
+        ),
+        (
+            FREE,
+            (),
+            (Margin("shaft joint", 1.0, None, "N m", note="not in the catalogue"),),
+            "not in the catalogue",
+        ),
+        (replace(FREE, nearest=Clearance("leg", -0.002)), (), (), "leg"),
+    ],
 )
-def test_an_exceeded_capacity_is_an_open_point(name):
-    result = buildable(KNOWN_MOTOR, FREE, (margin(name, 1200.0, 1000.0),))
+def test_exceeded_capacities_weak_joints_and_collisions_are_faults(
+    mounting, margins, joints, fault
+):
+    result = buildable(KNOWN_MOTOR, mounting, margins, joints)
     assert result.yes is False
-    assert result.open[0].what == f"{name}: 1,200 W required by drop, 1,000 W allowed"
+    assert fault in result.open[0].what
 
 
 @pytest.mark.parametrize(
@@ -80,32 +106,10 @@ def test_a_capacity_is_exceeded_only_beyond_a_tolerance(name, demand, yes):
     assert buildable(KNOWN_MOTOR, FREE, (margin(name, demand, 1000.0),)).yes is yes
 
 
-@pytest.mark.parametrize(
-    ("joint", "words"),
-    [
-        (Margin("rim joint", 2.0, 1.0, "N m"), "rim joint: 2 N m required, 1 N m available"),
-        (
-            Margin("shaft joint", 1.0, None, "N m", note="not in the catalogue"),
-            "not in the catalogue",
-        ),
-    ],
-)
-def test_a_weak_or_unknown_joint_is_an_open_point(joint, words):
-    result = buildable(KNOWN_MOTOR, FREE, (), (joint,))
-    assert result.yes is False
-    assert words in result.open[0].what
-
-
 @pytest.mark.parametrize("name", ["shaft joint, screws in shear", "landing shock, foot"])
 def test_joints_backed_by_friction_or_a_milled_foot_are_no_fault(name):
     backed = Margin(name, 2.0, 1.0, "N m")
     assert buildable(KNOWN_MOTOR, FREE, (), (backed,)).yes is True
-
-
-def test_a_collision_is_an_open_point():
-    result = buildable(KNOWN_MOTOR, replace(FREE, nearest=Clearance("leg", -0.002)), ())
-    assert result.yes is False
-    assert "leg" in result.open[0].what
 
 
 LEGLESS = """<robot name="rover"><link name="trunk"><inertial><mass value="2"/>

@@ -8,7 +8,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from gyrostats import BACK_FLIP, DIAGONAL, EC_45_FLAT, FULL, body, boundary_of, drop
+from driven_wheels import EC45_LINE
+from gyrostats import BACK_FLIP, DIAGONAL, FULL, body, boundary_of, drop
 
 from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.requirement.turns import Catch, TurnTo
@@ -46,7 +47,7 @@ def test_basilisk_agrees_with_a_plan(maneuver, gyrostat):
     if subprocess.run(command, check=False, capture_output=True).returncode:
         pytest.skip("no Basilisk (pip install bsk) in this environment or in BASILISK_PYTHON")
     start = boundary_of(maneuver)
-    planned = least_power_turn(start, gyrostat, EC_45_FLAT)
+    planned = least_power_turn(start, gyrostat, EC45_LINE)
     assert not planned.failure
     trajectory, count = planned.trajectory, FINER * STEPS
     (motion,) = planned.solution.motions

@@ -5,10 +5,10 @@ from dataclasses import replace
 import mujoco
 import numpy as np
 import pytest
+from driven_wheels import EC45_LINE
 from gyrostats import (
     BACK_FLIP,
     DIAGONAL,
-    EC_45_FLAT,
     FALL,
     FULL,
     PUSH,
@@ -72,7 +72,7 @@ def solved(request):
     return gyrostat, boundary_of(maneuver), _planned(gyrostat, maneuver)
 
 
-def _planned(gyrostat, maneuver, line=EC_45_FLAT, **options):
+def _planned(gyrostat, maneuver, line=EC45_LINE, **options):
     return least_power_turn(boundary_of(maneuver), gyrostat, line, **options)
 
 
@@ -95,7 +95,7 @@ def test_it_ends_at_rest_at_the_final_attitude(solved):
 
 def test_limits_hold_at_every_sample(solved):
     _, _, solution = solved
-    path, line = solution.trajectory, EC_45_FLAT
+    path, line = solution.trajectory, EC45_LINE
     assert np.abs(path.wheel_torque).max() <= line.torque_limit * (1.0 + 1e-6)
     slope = line.no_load_speed / line.stall_torque
     largest = np.abs(path.wheel_speed + slope * path.wheel_torque).max()
@@ -206,7 +206,7 @@ def test_a_mechanical_speed_limit_is_kept():
 
 @pytest.mark.parametrize("weak", [{"torque_limit": 0.3}, {"power_max": 10.0}])
 def test_weak_drives_have_no_solution(weak):
-    planned = _planned(body(FORTY), drop(30.0), replace(EC_45_FLAT, **weak))
+    planned = _planned(body(FORTY), drop(30.0), replace(EC45_LINE, **weak))
     assert not planned.solution.solved
     assert planned.failure.startswith("no solution within the limits in ")
 
@@ -264,7 +264,7 @@ def test_a_tumbling_body_with_spinning_wheels_comes_to_rest():
         rate=np.array([0.3, -0.4, 0.2]),
         wheel_speed=np.array([50.0, -80.0, 20.0]),
     )
-    planned = least_power_turn(start, gyrostat, EC_45_FLAT)
+    planned = least_power_turn(start, gyrostat, EC45_LINE)
     assert not planned.failure
     path = planned.trajectory
     assert attitude_error(start, path) < 1e-5
@@ -275,7 +275,7 @@ def test_a_tumbling_body_with_spinning_wheels_comes_to_rest():
     np.testing.assert_allclose(length, length[0], rtol=1e-7)
 
 
-def _power(path, line=EC_45_FLAT):
+def _power(path, line=EC45_LINE):
     """Power of both motors at every sample, with R i^2 = w_0 / tau_s tau^2 [W]."""
     torque, slope = path.wheel_torque, line.no_load_speed / line.stall_torque
     return (torque * (slope * torque + path.wheel_speed)).sum(axis=1)
@@ -285,7 +285,7 @@ def _power(path, line=EC_45_FLAT):
 def test_a_power_limit_reduces_the_peak_power(name):
     gyrostat, maneuver = CASES[name]
     before = np.abs(_power(_planned(gyrostat, maneuver).trajectory)).max()
-    planned = _planned(gyrostat, maneuver, replace(EC_45_FLAT, power_max=before))
+    planned = _planned(gyrostat, maneuver, replace(EC45_LINE, power_max=before))
     assert planned.failure == ""
     assert np.abs(_power(planned.trajectory)).max() < 0.95 * before
 
@@ -293,7 +293,7 @@ def test_a_power_limit_reduces_the_peak_power(name):
 def test_power_is_a_limit_at_every_sample():
     gyrostat, maneuver = CASES["pitch"]
     before = np.abs(_power(_planned(gyrostat, maneuver).trajectory)).max()
-    tight = replace(EC_45_FLAT, power_max=0.45 * before)
+    tight = replace(EC45_LINE, power_max=0.45 * before)
     path = _planned(gyrostat, maneuver, tight).trajectory
     assert np.abs(_power(path)).max() <= 0.9 * before * (1.0 + 1e-5)
     assert limit_violation(path.wheel_speed, path.wheel_torque, tight) < 1e-5
@@ -302,7 +302,7 @@ def test_power_is_a_limit_at_every_sample():
 
 def test_a_cached_program_keeps_no_state_of_other_turns():
     """A program of the same dimensions is solved for another turn in between."""
-    line = replace(EC_45_FLAT, power_max=300.0)
+    line = replace(EC45_LINE, power_max=300.0)
     gyrostat, maneuver = CASES["pitch"]
     first = _planned(gyrostat, maneuver, line).solution
     other = _planned(gyrostat, drop(24.0), line).solution
@@ -337,12 +337,12 @@ def test_four_wheels_without_a_plan_use_that_of_an_equivalent_pair(monkeypatch):
     pair = body(np.radians(30.0), spin_inertia=1.4e-4, armature=1e-6)
     four = replace(pair, axes=np.tile(pair.axes, 2), spin_inertia=0.7e-4, armature=0.5e-6)
     weak = replace(
-        EC_45_FLAT,
-        stall_torque=EC_45_FLAT.stall_torque / 2.0,
-        torque_limit=EC_45_FLAT.torque_limit / 2.0,
+        EC45_LINE,
+        stall_torque=EC45_LINE.stall_torque / 2.0,
+        torque_limit=EC45_LINE.torque_limit / 2.0,
     )
     turn = boundary_of(drop(20.0, 10.0))
-    planned, expected = least_power_turn(turn, four, weak), least_power_turn(turn, pair, EC_45_FLAT)
+    planned, expected = least_power_turn(turn, four, weak), least_power_turn(turn, pair, EC45_LINE)
     assert not planned.failure
     path = planned.trajectory
     assert attitude_error(turn, path) == pytest.approx(attitude_error(turn, expected.trajectory))

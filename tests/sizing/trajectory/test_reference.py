@@ -4,7 +4,8 @@ import re
 
 import numpy as np
 import pytest
-from gyrostats import BACK_FLIP, DIAGONAL, EC_45_FLAT, FULL, PUSH, STANDING, body, drop
+from driven_wheels import EC45_LINE
+from gyrostats import BACK_FLIP, DIAGONAL, FULL, PUSH, STANDING, body, drop
 
 from ocs_design.actuation.drive import DriveLine
 from ocs_design.device.layout import ISOTROPIC, Layout, LayoutName
@@ -24,8 +25,8 @@ FORTY = np.radians(40.0)
 
 @pytest.mark.parametrize("kept", [1.0, 1.05])
 def test_a_reference_leaves_margins_for_feedback_and_reserve(kept):
-    planned = reference(body(FORTY, 1.4e-4), EC_45_FLAT, drop(30.0), STANDING, kept)
-    path, line = planned.trajectory, EC_45_FLAT.reserved(PLANNED / kept)
+    planned = reference(body(FORTY, 1.4e-4), EC45_LINE, drop(30.0), STANDING, kept)
+    path, line = planned.trajectory, EC45_LINE.reserved(PLANNED / kept)
     assert planned.note == path.note == ""
     assert limit_violation(path.wheel_speed, path.wheel_torque, line) < 1e-6
     assert (np.diff(path.time) > 0.0).all()
@@ -34,23 +35,23 @@ def test_a_reference_leaves_margins_for_feedback_and_reserve(kept):
 
 def test_a_reference_that_needs_the_whole_drive_says_so():
     """A wheel between the smallest one for the full drive and that with its margin."""
-    planned = reference(body(FORTY, 9.2e-5), EC_45_FLAT, drop(30.0), STANDING)
+    planned = reference(body(FORTY, 9.2e-5), EC45_LINE, drop(30.0), STANDING)
     assert f"{PLANNED:.1%}" in planned.note
     path = planned.trajectory
     assert path.note == planned.note
-    used = limit_violation(path.wheel_speed, path.wheel_torque, EC_45_FLAT.reserved(PLANNED))
+    used = limit_violation(path.wheel_speed, path.wheel_torque, EC45_LINE.reserved(PLANNED))
     assert used == pytest.approx(1.0 / PLANNED - 1.0, abs=0.01)
-    assert limit_violation(path.wheel_speed, path.wheel_torque, EC_45_FLAT) < 1e-6
+    assert limit_violation(path.wheel_speed, path.wheel_torque, EC45_LINE) < 1e-6
 
 
 def test_infeasible_turns_have_no_reference():
-    planned = reference(body(FORTY, 6e-5), EC_45_FLAT, drop(30.0), STANDING)
+    planned = reference(body(FORTY, 6e-5), EC45_LINE, drop(30.0), STANDING)
     assert planned.trajectory is None
     assert "no optimal turn was found (no solution within the limits in" in planned.note
 
 
 def test_a_push_has_no_reference():
-    planned = reference(body(FORTY), EC_45_FLAT, PUSH, STANDING)
+    planned = reference(body(FORTY), EC45_LINE, PUSH, STANDING)
     assert planned.trajectory is None
     assert "feedback" in planned.note
 
@@ -60,7 +61,7 @@ def test_a_turn_that_is_too_fast_is_refused_with_a_feasible_time():
     """The theory's table has 2 s for these wheels, within 5 % of the named time."""
     yaw = TurnTo(name="yaw", jump_height=1.0, yaw=np.pi / 2.0, duration=1.7)
     gyrostat = body(np.radians(39.0), 1.05e-4, DIAGONAL)
-    planned = reference(gyrostat, EC_45_FLAT, yaw, STANDING)
+    planned = reference(gyrostat, EC45_LINE, yaw, STANDING)
     assert planned.trajectory is None
     match = re.fullmatch(r".* this turn in 1.7 s: they need (.*) s", planned.note)
     assert match
@@ -77,7 +78,7 @@ def test_a_plan_survives_the_failure_of_any_drive_at_its_start(layout):
     axes = Layout(layout).axes(ISOTROPIC)
     for inertia, survives in ((4e-4, True), (2e-4, False)):
         gyrostat = Gyrostat(FULL, axes, inertia)
-        planned = reference(gyrostat, EC_45_FLAT, BACK_FLIP, STANDING, one_stops=True)
+        planned = reference(gyrostat, EC45_LINE, BACK_FLIP, STANDING, one_stops=True)
         worst = 0.0
         for lost in range(axes.shape[1]):
             left = np.delete(axes, lost, axis=1)
@@ -85,7 +86,7 @@ def test_a_plan_survives_the_failure_of_any_drive_at_its_start(layout):
                 np.linalg.lstsq(left, axes @ each.T, rcond=None)[0].T
                 for each in (planned.trajectory.wheel_speed, planned.trajectory.wheel_torque)
             )
-            worst = max(worst, limit_violation(speed, torque, EC_45_FLAT.reserved(PLANNED)))
+            worst = max(worst, limit_violation(speed, torque, EC45_LINE.reserved(PLANNED)))
         assert (worst < 1e-6) == survives
         assert (planned.note == "") == survives
         assert (planned.share <= PLANNED) == survives

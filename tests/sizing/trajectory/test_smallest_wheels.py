@@ -3,10 +3,10 @@
 import casadi as ca
 import numpy as np
 import pytest
+from driven_wheels import EC45_LINE
 from gyrostats import (
     BACK_FLIP,
     DIAGONAL,
-    EC_45_FLAT,
     FALL,
     PUSH,
     attitude_error,
@@ -34,7 +34,7 @@ def _closed_form(roll, pitch, incidence, duration=FALL):
         TiltInertia.uncoupled(inertia),
         module_axes(incidence)[:2],
     )
-    return smallest_spin_inertia(task, EC_45_FLAT).item()
+    return smallest_spin_inertia(task, EC45_LINE).item()
 
 
 @pytest.mark.parametrize(
@@ -106,7 +106,7 @@ def _with_constant_torques(tilt, axes, steps=40):
     program = ca.Opti()
     size, angle = program.variable(), program.variable()
     states, torques = program.variable(6 + wheels, steps + 1), program.variable(wheels, steps)
-    k = EC_45_FLAT.no_load_speed / EC_45_FLAT.stall_torque
+    k = EC45_LINE.no_load_speed / EC45_LINE.stall_torque
     scale = np.array([1.0, 1, 1, 3, 3, 3, *[500] * wheels])
     for i in range(steps):
         x, u, z = states[:, i] * scale, torques[:, i], size * 1e-4
@@ -117,7 +117,7 @@ def _with_constant_torques(tilt, axes, steps=40):
         following = x + dt / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
         program.subject_to(states[:, i + 1] == following / scale)
         for speed in (states[6:, i] * 500, states[6:, i + 1] * 500):
-            program.subject_to(program.bounded(-1, (speed + k * u) / EC_45_FLAT.no_load_speed, 1))
+            program.subject_to(program.bounded(-1, (speed + k * u) / EC45_LINE.no_load_speed, 1))
     roll, pitch = tilt
     start = [-np.sin(pitch), np.sin(roll) * np.cos(pitch), np.cos(roll) * np.cos(pitch)]
     program.subject_to(states[:, 0] == np.append(start, np.zeros(3 + wheels)))
@@ -144,7 +144,7 @@ def test_a_push_requires_more_than_its_momentum():
     assert smallest.solution.solved
     roll, pitch, _ = np.array(PUSH.torque) * PUSH.duration
     shares = np.sin(np.radians(35.0)), np.cos(np.radians(35.0))
-    least = (roll / shares[0] + pitch / shares[1]) / 2.0 / EC_45_FLAT.no_load_speed
+    least = (roll / shares[0] + pitch / shares[1]) / 2.0 / EC45_LINE.no_load_speed
     assert smallest.gyrostat.spin_inertia > least
     assert end_rate(smallest.gyrostat, smallest.trajectory) < 1e-6
 
