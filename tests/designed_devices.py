@@ -62,6 +62,12 @@ def record_of(task, design, *, seed=0, files=None):
     margins = record_margins(task.resolved, design, (), {})
     built = buildable_of(task.robot, design, margins, None)
     record = record_design(
-        task.robot, task.resolved, design, margins=margins, built=built, mounting=None, seed=seed
+        task.robot,
+        task.resolved,
+        design,
+        margins=margins,
+        buildable=built,
+        mounting=None,
+        seed=seed,
     )
     return replace(record, files=files or {})

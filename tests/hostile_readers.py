@@ -25,7 +25,7 @@ from ocs_design.robot.meshes import longest_side, mesh_bounds, unscaled_bounds
 from ocs_design.robot.mujoco_model import build_spec
 from ocs_design.robot.reader import read_group_states, read_robot
 from ocs_design.workflows.inspect import inspect_robot
-from ocs_design.workflows.restoring import base_of, read_designed, robot_of
+from ocs_design.workflows.restoring import base_of, read_design_and_device, robot_of
 
 GEARS = b"""[[gear]]
 name = "one to five"
@@ -160,7 +160,7 @@ def read_and_resolve(path: Path) -> object:
 
 def read_and_restore(path: Path) -> object:
     """Read a design and restore its live values, without its robot's file."""
-    design, device = read_designed(path)
+    design, device = read_design_and_device(path)
     robot = robot_of(design.robot, path, {}) if design.robot.format == "manual" else None
     return (
         safe_name(design.robot.name),

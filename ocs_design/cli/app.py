@@ -260,7 +260,7 @@ def _design(
     if open_report:
         from ocs_design.export.folder import REPORT_FILE
 
-        open_page(output.aside, outcome.folder / REPORT_FILE)
+        open_page(output.stderr_console, outcome.folder / REPORT_FILE)
     output.end(outcome.exit_code, outcome.design)
 
 
@@ -377,5 +377,5 @@ def catalogue(
     if as_json:
         sys.stdout.buffer.write(listed.json)
     else:
-        warn(output.aside, listed.warnings)
+        warn(output.stderr_console, listed.warnings)
         listed.show(output.console, verbose=verbose)

@@ -23,7 +23,7 @@ from ocs_design.common.errors import OcsError, UsageError
 from ocs_design.export.formats import FORMATS, USUAL_FORMATS
 
 if TYPE_CHECKING:
-    from ocs_design.workflows.init import Start
+    from ocs_design.workflows.init import StartingPoint
 
 
 def doctor(as_json: opt.AsJson = False, no_color: opt.NoColor = False) -> None:
@@ -81,21 +81,14 @@ def init(
     """
     from ocs_design.export.folder import check_file_target
     from ocs_design.report.text.answers import print_initialized
-    from ocs_design.workflows.init import read_start, write_start
+    from ocs_design.workflows.init import read_starting_point, write_specification
 
     packages, specified = package_paths_of_command(context), specified_by_command(context)
-    read = partial(read_start, package_paths=packages, strict=strict)
+    read = partial(read_starting_point, package_paths=packages, strict=strict)
     asking = not (yes or as_json) and sys.stdin.isatty() and sys.stderr.isatty()
     robot_section = specified.robot
-    if asking and all(
-        item is None
-        for item in (
-            robot_section.file,
-            robot_section.mass,
-            robot_section.inertia,
-            robot_section.human,
-        )
-    ):
+    sources = (robot_section.file, robot_section.mass, robot_section.inertia, robot_section.human)
+    if asking and all(source is None for source in sources):
         start = _ask(
             "Robot file (URDF, xacro or MJCF), or nothing",
             "",
@@ -110,37 +103,37 @@ def init(
     chosen: tuple[str, ...] = ()
     if asking:
         start, chosen = _ask_task(start)
-    written = write_start(start, file, chosen=chosen, package_paths=packages, force=force)
+    written = write_specification(start, file, chosen=chosen, package_paths=packages, force=force)
     Output(as_json, no_color, quiet).give(written, print_initialized)
 
 
-def _ask_task(start: "Start") -> tuple["Start", tuple[str, ...]]:
+def _ask_task(start: "StartingPoint") -> tuple["StartingPoint", tuple[str, ...]]:
     """The start with the user's answers, and the maneuvers that were chosen."""
     from ocs_design.requirement.specification import merge, specification_from_options
     from ocs_design.requirement.vocabulary import NO_MOTOR
     from ocs_design.requirement.writing import rounded_text
 
-    def with_key(path: str, default: str, answer: str) -> "Start":
+    def with_key(path: str, default: str, answer: str) -> "StartingPoint":
         """The start with an answer as a key's value; a bare number is in the default's unit."""
         unit = default.partition(" ")[2] if answer.strip()[-1:].isdigit() else ""
-        given = {} if answer == default else {path: f"{answer} {unit}".rstrip()}
-        return replace(start, specified=merge(start.specified, specification_from_options(given)))
+        options = {} if answer == default else {path: f"{answer} {unit}".rstrip()}
+        return replace(start, specified=merge(start.specified, specification_from_options(options)))
 
     chosen: tuple[str, ...] = ()
     if start.specified.takes_default_maneuvers:
-        known = [maneuver.name for maneuver in start.default.maneuvers]
+        names = [maneuver.name for maneuver in start.default.maneuvers]
 
         def maneuvers(answer: str) -> tuple[str, ...]:
             """Names of maneuvers; empty for all, which is the default."""
-            named = tuple(name.strip() for name in answer.split(","))
-            unknown = [name for name in named if name not in (*known, ALL)]
+            chosen_names = tuple(name.strip() for name in answer.split(","))
+            unknown = [name for name in chosen_names if name not in (*names, ALL)]
             if unknown:
                 raise UsageError(
-                    f"{', '.join(unknown)}: unknown; choose from {', '.join((*known, ALL))}"
+                    f"{', '.join(unknown)}: unknown; choose from {', '.join((*names, ALL))}"
                 )
-            return () if ALL in named else named
+            return () if ALL in chosen_names else chosen_names
 
-        question = f"Maneuvers, separated by commas: {', '.join(known)}; or {ALL}"
+        question = f"Maneuvers, separated by commas: {', '.join(names)}; or {ALL}"
         chosen = _ask(question, ALL, maneuvers)
     for path, question in QUESTIONS.items():
         section, _, name = path.partition(".")
@@ -192,8 +185,8 @@ def export(
         opt.option(
             "--formats",
             "NAMES",
-            f"{', '.join(each.name for each in USUAL_FORMATS)} (the default), "
-            f"{', '.join(each.name for each in FORMATS if each.on_request)}, figures, report, "
+            f"{', '.join(kind.name for kind in USUAL_FORMATS)} (the default), "
+            f"{', '.join(kind.name for kind in FORMATS if kind.on_request)}, figures, report, "
             "controller, separated by commas; or all.",
             completion.listed(completion.any_of(completion.formats)),
         ),

@@ -68,8 +68,8 @@ def files(*ends: str) -> Completer:
         # A single folder would be taken as the complete word.
         while len(paths) == 1 and paths[0].endswith(os.sep):
             paths = sorted(_paths(paths[0], ends))
-        plain = all(set(path) <= _PLAIN for path in paths)
-        return paths if plain else []
+        needs_no_quotes = all(set(path) <= _PLAIN for path in paths)
+        return paths if needs_no_quotes else []
 
     return complete
 
@@ -111,9 +111,9 @@ def gears() -> Iterable[str]:
 
 def materials() -> Iterable[str]:
     """Rim materials in the catalogue, and the words accepted in place of one."""
-    from ocs_design.catalogue.materials import materials as known
+    from ocs_design.catalogue.materials import materials as rim_materials
 
-    return ("auto", "steel", *known())
+    return ("auto", "steel", *rim_materials())
 
 
 def formats() -> Iterable[str]:

@@ -27,8 +27,8 @@ def with_options(shared: Mapping[str, object]) -> Callable[[Command], Command]:
 
     def declared(command: Command) -> Command:
         @functools.wraps(command)
-        def run(**given: object) -> None:
-            command(**{name: value for name, value in given.items() if name not in shared})
+        def run(**values: object) -> None:
+            command(**{name: value for name, value in values.items() if name not in shared})
 
         context, *of_command = inspect.signature(command).parameters.values()
         redeclare(run, [context, *parameters(shared, default=None), *of_command])
@@ -365,19 +365,19 @@ def specified_by_command(context: typer.Context) -> "Specification":
 
     file = context.params["spec"]
     base = Specification() if file is None else read_specification(Path(file))
-    given: dict[str, object] = {}
+    values: dict[str, object] = {}
     for path, key in all_keys().items():
         option = key.option or path.partition(".")[2]
         # A robot's file is not an option but the command's argument.
         parameter = "robot" if path == "robot.file" else option.replace("-", "_")
         value = context.params.get(parameter)
         if context.params.get(f"no_{parameter}"):
-            given[path] = False
+            values[path] = False
         # An option that was not given is None, an empty list or a false flag; 0 is a valid seed,
         # and equals False.
         elif value is not None and value is not False and value not in ((), []):
-            given[path] = list(value) if isinstance(value, tuple) else value
-    typed = specification_from_options(given)
+            values[path] = list(value) if isinstance(value, tuple) else value
+    typed = specification_from_options(values)
     merged = merge(base, typed)
     if typed.ocs.alpha is not None and typed.ocs.alpha_criterion is not None:
         raise UsageError(

@@ -43,7 +43,7 @@ class Output:
         return self._console(stderr=False)
 
     @cached_property
-    def aside(self) -> "Console":
+    def stderr_console(self) -> "Console":
         """Console on standard error, for progress and warnings."""
         return self._console(stderr=True)
 
@@ -52,7 +52,7 @@ class Output:
         """Progress of the command."""
         from ocs_design.report.text.console import Steps
 
-        return Steps(self.aside, quiet=self.quiet or self.as_json)
+        return Steps(self.stderr_console, quiet=self.quiet or self.as_json)
 
     def give(
         self,
@@ -72,7 +72,7 @@ class Output:
         elif not self.quiet:
             from ocs_design.report.text.layout import warn
 
-            warn(self.aside, warnings)
+            warn(self.stderr_console, warnings)
             show(self.console, answer)
 
     def end(self, exit_code: int, judged: "OcsDesign | Validated") -> NoReturn:
@@ -80,7 +80,7 @@ class Output:
         if exit_code and self.quiet and not self.as_json:
             from ocs_design.report.verdict import headline
 
-            self.aside.print(headline(judged).with_finding, markup=False, soft_wrap=True)
+            self.stderr_console.print(headline(judged).with_finding, markup=False, soft_wrap=True)
         raise typer.Exit(exit_code)
 
     def _console(self, *, stderr: bool) -> "Console":
@@ -103,9 +103,9 @@ def with_output(command: opt.Command) -> opt.Command:
     """Add the options of `Output` after a command's own; they come in its parameter `output`."""
 
     @functools.wraps(command)
-    def run(**given: object) -> None:
-        output = Output(**{name: bool(given.pop(name)) for name in OUTPUT_OPTIONS})
-        command(**given, output=output)
+    def run(**arguments: object) -> None:
+        output = Output(**{name: bool(arguments.pop(name)) for name in OUTPUT_OPTIONS})
+        command(**arguments, output=output)
 
     of_command = [
         parameter

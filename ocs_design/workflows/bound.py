@@ -8,7 +8,7 @@ from ocs_design.device.answers import BoundAnswer
 from ocs_design.requirement.bound import AXES, authority, bound_curve, spin_bound
 from ocs_design.requirement.values import INCIDENCE, TRUNK_RATE, WHEEL_RATE, Quantity
 
-CURVE_POINTS = (0.25, 0.5, 1.0, 2.0, 4.0)
+CURVE_FACTORS = (0.25, 0.5, 1.0, 2.0, 4.0)
 """Rate changes and wheel speeds of the curve, over the given ones."""
 
 
@@ -34,8 +34,8 @@ def bound_by_hand(
             hint="reduce the rate change below the wheel's speed, or choose an incidence that "
             "reaches the axis",
         )
-    rates = tuple(point * rate for point in CURVE_POINTS)
-    speeds = tuple(point * speed for point in CURVE_POINTS)
+    rates = tuple(factor * rate for factor in CURVE_FACTORS)
+    speeds = tuple(factor * speed for factor in CURVE_FACTORS)
     return BoundAnswer(
         axis=axis,
         inertia=moment,

@@ -23,7 +23,7 @@ from packaging.specifiers import SpecifierSet
 from packaging.utils import canonicalize_name
 
 from ocs_design.common.errors import DISTRIBUTION, MissingToolError, install_command
-from ocs_design.common.files import processors as usable
+from ocs_design.common.files import processors
 from ocs_design.device.findings import Examination, Finding, State
 from ocs_design.export.programs import (
     FFMPEG_HINT,
@@ -75,7 +75,7 @@ TIME_LIMIT = 120.0
 """Longest time to import everything [s]."""
 
 # Output printed by the modules themselves must not mix with the answers.
-_IMPORTING = """
+_IMPORT_SCRIPT = """
 import importlib, json, os, sys
 answers = os.fdopen(os.dup(1), "w")
 os.dup2(2, 1)
@@ -113,8 +113,10 @@ class PackageRequirement:
             return ""
         if state is State.BROKEN:
             return install_command(f"{self.name}{self.versions}", options="--force-reinstall")
-        what = f"{DISTRIBUTION}[{self.extra}]" if self.extra else f"{self.name}{self.versions}"
-        return install_command(what)
+        requirement = (
+            f"{DISTRIBUTION}[{self.extra}]" if self.extra else f"{self.name}{self.versions}"
+        )
+        return install_command(requirement)
 
 
 def package_requirements() -> tuple[PackageRequirement, ...]:
@@ -158,8 +160,8 @@ def package_findings(packages: Sequence[PackageRequirement]) -> Iterator[Finding
         elif reason:
             state = State.BROKEN
         else:
-            fits = allowed.contains(installed, prereleases=True)
-            state = State.WORKS if fits else State.UNFIT
+            is_allowed = allowed.contains(installed, prereleases=True)
+            state = State.WORKS if is_allowed else State.UNFIT
         yield Finding(
             name=requirement.name,
             state=state,
@@ -175,7 +177,7 @@ def package_findings(packages: Sequence[PackageRequirement]) -> Iterator[Finding
 
 def import_failures(modules: Sequence[str]) -> Mapping[str, str]:
     """Reason for each module that cannot be imported; others are left out."""
-    command = [sys.executable, "-c", _IMPORTING, *modules]
+    command = [sys.executable, "-c", _IMPORT_SCRIPT, *modules]
     try:
         process = subprocess.run(
             command, capture_output=True, text=True, check=False, timeout=TIME_LIMIT
@@ -188,23 +190,23 @@ def import_failures(modules: Sequence[str]) -> Mapping[str, str]:
     return {name: answers.get(name, fallback) for name in modules if answers.get(name, fallback)}
 
 
-def python() -> Finding:
+def python_finding() -> Finding:
     """Finding about the Python interpreter."""
-    found = platform.python_version()
-    wanted = metadata.metadata(DISTRIBUTION)["Requires-Python"]
-    fits = SpecifierSet(wanted).contains(found, prereleases=True)
+    installed = platform.python_version()
+    required = metadata.metadata(DISTRIBUTION)["Requires-Python"]
+    is_supported = SpecifierSet(required).contains(installed, prereleases=True)
     return Finding(
         name="Python",
-        state=State.WORKS if fits else State.UNFIT,
+        state=State.WORKS if is_supported else State.UNFIT,
         required=True,
-        found=found,
-        wanted=wanted,
+        found=installed,
+        wanted=required,
         purpose="everything",
-        cure="" if fits else "make a virtual environment with a newer Python",
+        cure="" if is_supported else "make a virtual environment with a newer Python",
     )
 
 
-def working_folder(folder: Path) -> Finding:
+def folder_finding(folder: Path) -> Finding:
     """Finding about the folder to which output goes without -o."""
     reason = ""
     try:
@@ -223,17 +225,17 @@ def working_folder(folder: Path) -> Finding:
     )
 
 
-def processors() -> Finding:
+def processors_finding() -> Finding:
     """Finding about the processors that this process may use."""
     return Finding(
         name="processors",
         state=State.WORKS,
-        found=str(usable()),
+        found=str(processors()),
         purpose="flights, several at once",
     )
 
 
-def opengl() -> Iterator[Finding]:
+def opengl_findings() -> Iterator[Finding]:
     """Findings about each way to render without a screen; one is enough."""
     tried_backends = backends()
     with ThreadPoolExecutor() as pool:
@@ -249,7 +251,7 @@ def opengl() -> Iterator[Finding]:
         )
 
 
-def ffmpeg() -> Finding:
+def ffmpeg_finding() -> Finding:
     """Finding about ffmpeg, which makes videos."""
     path, installed = ffmpeg_program(), ""
     if path is not None:
@@ -269,15 +271,15 @@ def ffmpeg() -> Finding:
     )
 
 
-def compiler() -> Finding:
+def compiler_finding() -> Finding:
     """Finding about a C compiler, by the names that `make` and Python's own builds try."""
-    found = next((name for name in ("cc", "gcc", "clang") if shutil.which(name)), "")
+    program = next((name for name in ("cc", "gcc", "clang") if shutil.which(name)), "")
     return Finding(
         name="C compiler",
-        state=State.WORKS if found else State.MISSING,
-        found=found,
+        state=State.WORKS if program else State.MISSING,
+        found=program,
         purpose="the exported controller",
-        cure="" if found else "install a C compiler, on Debian: apt install gcc",
+        cure="" if program else "install a C compiler, on Debian: apt install gcc",
     )
 
 
@@ -298,9 +300,16 @@ def examine() -> Examination:
             f"{DISTRIBUTION} runs from its source and is not installed: its needs are unknown",
             hint="pip install .",
         ) from error
-    folder, packages = working_folder(Path.cwd()), tuple(package_findings(requirements))
+    folder, packages = folder_finding(Path.cwd()), tuple(package_findings(requirements))
     # In the order in which they matter.
-    machine = (python(), folder, processors(), *opengl(), ffmpeg(), compiler())
+    machine = (
+        python_finding(),
+        folder,
+        processors_finding(),
+        *opengl_findings(),
+        ffmpeg_finding(),
+        compiler_finding(),
+    )
     return Examination(metadata.version(DISTRIBUTION), machine, packages)
 
 

@@ -29,7 +29,7 @@ from ocs_design.report.text.console import ProgressCallback, Steps
 from ocs_design.workflows.restoring import (
     RobotLocation,
     base_of,
-    read_designed,
+    read_design_and_device,
     read_recorded_robot,
 )
 
@@ -85,7 +85,7 @@ def export_design(
     design_outputs = [name for name in ON_DESIGN if name in names or ALL in names]
     with steps.step("read the design and its robot") as step:
         path = design_file(design)
-        recorded_design, device = read_designed(path)
+        recorded_design, device = read_design_and_device(path)
         name = safe_name(recorded_design.robot.name)
         location = RobotLocation(path, robot_file, package_paths or {}, _WHERE)
         subject = Subject(name, device, base=base_of(recorded_design.robot))

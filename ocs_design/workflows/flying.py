@@ -30,7 +30,7 @@ from ocs_design.simulation.world_builder import Options, control_of, overridden
 from ocs_design.sizing.trajectory.motion import Trajectory
 from ocs_design.workflows.restoring import (
     RobotLocation,
-    read_designed,
+    read_design_and_device,
     read_recorded_robot,
 )
 
@@ -42,7 +42,7 @@ def planned_turns(
     robot: Robot,
     device: Device,
     maneuvers: Sequence[Maneuver],
-    kept: ReserveRecord | None,
+    reserve: ReserveRecord | None,
     *,
     one_stops: bool,
 ) -> Mapping[str, "Reference"]:
@@ -50,14 +50,14 @@ def planned_turns(
 
     Args:
         robot: that flies. device: on it, with a motor. maneuvers: to plan.
-        kept: reserve with which the device was sized. one_stops: whether one drive may fail.
+        reserve: reserve with which the device was sized. one_stops: whether one drive may fail.
     """
     # CasADi takes a third of a second to import, and wheels without a motor do not need it.
     from ocs_design.sizing.trajectory.plans import plan  # noqa: PLC0415
 
-    demands, standing = None if kept is None else kept.demands, standing_height(robot)
-    flying = robot.mass_properties
-    return plan(flying, device, maneuvers, standing, demands, one_stops=one_stops)
+    demands, standing = None if reserve is None else reserve.demands, standing_height(robot)
+    mass_properties = robot.mass_properties
+    return plan(mass_properties, device, maneuvers, standing, demands, one_stops=one_stops)
 
 
 def trajectories(plans: Mapping[str, "Reference"]) -> Mapping[str, Trajectory]:
@@ -163,7 +163,7 @@ def read_flights(
             nothing to fly.
     """
     path = design_file(path)
-    design, device = read_designed(path)
+    design, device = read_design_and_device(path)
     if specified.reality.file is not None:
         # An unreadable file is reported even if nothing is sampled.
         entries(Path(specified.reality.file))
@@ -183,9 +183,11 @@ def read_flights(
     references: Mapping[str, Trajectory] = {}
     if design.selection is not None:
         # A plan is a few hundred numbers that follow from the design, so it is computed again.
-        stops = design.requirement.detection is not None
-        kept = design.selection.kept
-        references = trajectories(planned_turns(robot, device, maneuvers, kept, one_stops=stops))
+        one_stops = design.requirement.detection is not None
+        reserve = design.selection.kept
+        references = trajectories(
+            planned_turns(robot, device, maneuvers, reserve, one_stops=one_stops)
+        )
     jumps: Mapping[str, JumpPlans] = {}
     if not control.ballistic:
         # It takes a third of a second to import, and flights that start at lift-off do not need it.
@@ -221,6 +223,6 @@ def flown_hash(design: OcsDesign, control: ControlRecord, detection: float | Non
     Args:
         detection: time until a failed drive is detected, if one also fails in flights [s].
     """
-    stops = () if detection is None else (detection,)
-    flown = (design.ocs, design.requirement.maneuvers, control, *stops)
+    detections = () if detection is None else (detection,)
+    flown = (design.ocs, design.requirement.maneuvers, control, *detections)
     return hashlib.sha256(msgspec.json.encode(flown, order="sorted")).hexdigest()

@@ -28,7 +28,7 @@ SOLO12_MASS = 2.5
 
 
 @dataclass(frozen=True, eq=False)
-class Start:
+class StartingPoint:
     """The robot and the defaults from which a specification starts.
 
     Attributes:
@@ -49,22 +49,22 @@ class Start:
         return Path("ocs.toml" if self.robot is None else f"{safe_name(self.robot.name)}.toml")
 
 
-def read_start(
+def read_starting_point(
     specified: Specification,
     *,
     package_paths: Mapping[str, Path] | None = None,
     strict: bool = False,
-) -> Start:
+) -> StartingPoint:
     """Read the robot, if one is specified, and scale the defaults to it.
 
     Raises:
         OcsError: see `read_specified_robot`.
     """
     robot_section = specified.robot
-    given = (robot_section.file, robot_section.mass, robot_section.inertia, robot_section.human)
+    sources = (robot_section.file, robot_section.mass, robot_section.inertia, robot_section.human)
     robot = (
         read_specified_robot(specified, package_paths=package_paths, strict=strict)
-        if any(item is not None for item in given)
+        if any(source is not None for source in sources)
         else None
     )
     scaled_to = robot
@@ -79,11 +79,11 @@ def read_start(
     default = default_specification(
         scaled_to, kp=gains.stiffness, kd=gains.damping, gravity=gravity
     )
-    return Start(specified, robot, default, example_maneuvers(scaled_to, gravity))
+    return StartingPoint(specified, robot, default, example_maneuvers(scaled_to, gravity))
 
 
-def write_start(
-    start: Start,
+def write_specification(
+    start: StartingPoint,
     file: Path,
     *,
     chosen: Collection[str] = (),

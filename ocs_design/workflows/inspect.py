@@ -46,13 +46,13 @@ def inspect_robot(
             raise UsageError("there is nothing to draw without a file", hint="leave out --picture")
         # As recognised or, if that is not certain, in its likeliest reading.
         readings = robot.recognition.likely
-        shown = readings[0] if readings else robot.recognition.reading
-        words = [
-            f"{robot.name}: trunk {shown.trunk}, {len(shown.legs)} legs, "
-            f"confidence {shown.confidence:.0%}, posture {robot.posture_name}",
+        reading = readings[0] if readings else robot.recognition.reading
+        lines = [
+            f"{robot.name}: trunk {reading.trunk}, {len(reading.legs)} legs, "
+            f"confidence {reading.confidence:.0%}, posture {robot.posture_name}",
             *(f"or {reading.options} ({reading.confidence:.0%})" for reading in readings[1:]),
         ]
-        svg = stick_figure(robot, shown.legs, words)
+        svg = stick_figure(robot, reading.legs, lines)
         content = svg if picture.suffix.lower() == ".svg" else png_of(svg)
         write_whole(picture, content, force=True)
     return Inspection(

@@ -47,7 +47,7 @@ from ocs_design.sizing.selection.refinement import mass_prices
 from ocs_design.sizing.sized import Designed, DriveChoice
 
 
-def record_selection(choice: DriveChoice, kept: ReserveRecord | None = None) -> SelectionRecord:
+def record_selection(choice: DriveChoice, reserve: ReserveRecord | None = None) -> SelectionRecord:
     """Record of how motor, gear, material and incidence were chosen."""
     problem, chosen, selection = choice.problem, choice.chosen, choice.selection
     return SelectionRecord(
@@ -78,7 +78,7 @@ def record_selection(choice: DriveChoice, kept: ReserveRecord | None = None) -> 
         ),
         co_design=choice.co_design,
         prices=tuple(mass_prices(problem, selection.best)),
-        kept=kept,
+        kept=reserve,
     )
 
 
@@ -123,7 +123,7 @@ def write_runs(runs: Sequence[Run], folder: Path, survival: SurvivalRecord | Non
                 )
 
 
-HOUSING_ASSUMED = (
+HOUSING_ASSUMPTION = (
     f"Housing: PETG, wall {format_quantity(WALL, 'mm')}, floor and lid "
     f"{format_quantity(PANEL, 'mm')}, {format_quantity(CLEARANCE, 'mm')} clear: "
     f"r_max + {format_quantity(WALL + CLEARANCE, 'mm')}."
@@ -136,7 +136,7 @@ def record_design(
     designed: Designed,
     *,
     margins: tuple[Margin, ...],
-    built: Buildable,
+    buildable: Buildable,
     mounting: DeviceMounting | None,
     warnings: tuple[str, ...] = (),
     seed: int,
@@ -145,7 +145,7 @@ def record_design(
     """Record of a design that is not flown, without alternatives and files."""
     requirement, device, sized = resolved.requirement, designed.device, designed.sized
     speed, total = sized.wheel_speed_max, sized.total
-    housing = () if resolved.choice is None else (HOUSING_ASSUMED,)
+    housing = () if resolved.choice is None else (HOUSING_ASSUMPTION,)
     return OcsDesign(
         schema_version=SCHEMA_VERSION,
         tool=Tool(name="ocs-design", version=__version__),
@@ -215,7 +215,7 @@ def record_design(
         else record_selection(designed.choice, designed.kept),
         margins=margins,
         supply=device.supply,
-        buildable=built,
+        buildable=buildable,
         validation=(),
         files={},
     )

@@ -26,7 +26,7 @@ from ocs_design.robot.robot import Mount, Robot, RobotFormat
 from ocs_design.robot.source import STANDARD_INPUT, read_source
 
 
-def read_designed(path: AnyPath) -> tuple[OcsDesign, Device]:
+def read_design_and_device(path: AnyPath) -> tuple[OcsDesign, Device]:
     """A design, and its device.
 
     Raises:
@@ -74,8 +74,8 @@ def robot_of(record: RobotRecord, path: AnyPath, package_paths: Mapping[str, Any
     except RobotError:
         # Another file than the one used for sizing: what it lacks is reported below.
         robot = read_robot(path, trunk=trunk, posture="zero", package_paths=package_paths)
-    known = {*robot.tree.joints, *robot.tree.body_of_link}
-    missing = [name for name in (*record.posture, record.trunk) if name not in known]
+    names = {*robot.tree.joints, *robot.tree.body_of_link}
+    missing = [name for name in (*record.posture, record.trunk) if name not in names]
     if missing:
         raise RobotError(
             f"{path}: has no joint or link '{missing[0]}', which the design names",
@@ -139,8 +139,8 @@ def read_recorded_robot(
             raise RobotError("the robot was read from standard input", hint=location.hint)
         existing = [base / record.source for base in bases if (base / record.source).is_file()]
         if not existing:
-            what = f"{record.source}: the robot's file no longer exists"
-            raise RobotError(what, hint=location.hint)
+            message = f"{record.source}: the robot's file no longer exists"
+            raise RobotError(message, hint=location.hint)
         # The file that the device was sized for, unchanged.
         unchanged = (path for path in existing if read_source(path).sha256 == record.sha256)
         source = next(unchanged, None)

@@ -69,7 +69,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class Placed:
+class PlacedDevice:
     """A device mounted on its robot.
 
     Attributes:
@@ -78,7 +78,7 @@ class Placed:
         warnings: about its position, and about the fallbacks.
         jumping: planning of its jumps, in progress or done; None: no jump will be flown.
         estimates: factor on the estimated demand of each turn, by name.
-        taken: the fallbacks for what was not specified, as assumptions and as warnings.
+        substitutions: the fallbacks for what was not specified, as assumptions and as warnings.
     """
 
     specification: Specification
@@ -89,13 +89,20 @@ class Placed:
     warnings: tuple[str, ...]
     jumping: "JumpPlanning | None"
     estimates: Mapping[str, float] = field(default_factory=dict)
-    taken: tuple[tuple[str, ...], tuple[str, ...]] = ((), ())
+    substitutions: tuple[tuple[str, ...], tuple[str, ...]] = ((), ())
 
-    def with_substitutions(self, taken: tuple[tuple[str, ...], tuple[str, ...]]) -> "Placed":
-        """This device, with these assumptions and warnings before its own."""
-        assumptions, warnings = taken
+    def with_substitutions(
+        self, substitutions: tuple[tuple[str, ...], tuple[str, ...]]
+    ) -> "PlacedDevice":
+        """This device with the assumptions and warnings of substitutions before its own."""
+        assumptions, warnings = substitutions
         resolved = replace(self.resolved, assumptions=(*assumptions, *self.resolved.assumptions))
-        return replace(self, resolved=resolved, warnings=(*warnings, *self.warnings), taken=taken)
+        return replace(
+            self,
+            resolved=resolved,
+            warnings=(*warnings, *self.warnings),
+            substitutions=substitutions,
+        )
 
     def cancel(self) -> None:
         """Start no further plans of its jumps."""
@@ -123,7 +130,7 @@ def size_on_robot(
     strict: bool,
     reserve: Reserve | None = None,
     estimates: Mapping[str, float] | None = None,
-) -> Placed:
+) -> PlacedDevice:
     """Size the device of a specification and place it; its jumps are planned in parallel.
 
     Args:
@@ -155,7 +162,9 @@ def size_on_robot(
         if jumping is not None:
             jumping.carry(device)
         mounting = mounting_of(robot, device, resolved.requirement.maneuvers, designed.sized.total)
-        placed = Placed(specification, robot, resolved, designed, mounting, (), jumping, factors)
+        placed = PlacedDevice(
+            specification, robot, resolved, designed, mounting, (), jumping, factors
+        )
         placed = replace(placed, warnings=warnings_of(placed, strict=strict))
     except BaseException as error:
         if jumping is not None:
@@ -169,7 +178,7 @@ def size_on_robot(
     return placed
 
 
-def warnings_of(placed: Placed, *, strict: bool) -> tuple[str, ...]:
+def warnings_of(placed: PlacedDevice, *, strict: bool) -> tuple[str, ...]:
     """Warnings about the position of a device.
 
     Raises:
@@ -189,7 +198,7 @@ def warnings_of(placed: Placed, *, strict: bool) -> tuple[str, ...]:
 
 def size_or_advise(
     specification: Specification, robot: Robot, steps: Steps, *, strict: bool
-) -> Placed:
+) -> PlacedDevice:
     """Size the device; if nothing meets the specification, try the fallbacks in turn.
 
     If a device's motors are heavy for the robot, more wheels are tried, too, until that makes it
@@ -221,14 +230,14 @@ def size_or_advise(
 
 def _lightest_attempt(
     in_turn: Iterable[Specification], specification: Specification, robot: Robot, steps: Steps
-) -> tuple[Placed | None, list[Attempt]]:
+) -> tuple[PlacedDevice | None, list[Attempt]]:
     """The device of the first attempt that gives one, or of more wheels that are lighter.
 
     Returns:
         The device, None if there is none, and the attempts whose device was not taken.
     """
     tried: list[Attempt] = []
-    best: Placed | None = None
+    best: PlacedDevice | None = None
     for attempt in in_turn:
         if best is not None:
             best_specification = best.specification
@@ -271,13 +280,13 @@ TURN_ROUNDS = 3
 """Most times that a device is resized for turns that it cannot make."""
 
 
-def size_for_turns(placed: Placed, steps: Steps, *, strict: bool) -> Placed:
+def size_for_turns(placed: PlacedDevice, steps: Steps, *, strict: bool) -> PlacedDevice:
     """Resize the device for turns that need too much of it, or take too long."""
     for _ in range(TURN_ROUNDS):
         maneuvers = placed.resolved.requirement.maneuvers
         estimates = dict(placed.estimates)
         turns = {maneuver.name: maneuver for maneuver in maneuvers if maneuver.estimated}
-        for name, reference in references_of(placed, list(turns.values())).items():
+        for name, reference in turn_references(placed, list(turns.values())).items():
             factor = reference.missing_demand(turns[name].end)
             if factor is not None:
                 estimates[name] = factor * estimates.get(name, 1.0)
@@ -291,21 +300,23 @@ def size_for_turns(placed: Placed, steps: Steps, *, strict: bool) -> Placed:
             except (Refused, NoMountHolds):
                 step.note = "no device makes them in time"
                 break
-        placed = resized.with_substitutions(placed.taken)
+        placed = resized.with_substitutions(placed.substitutions)
     return placed
 
 
-def references_of(placed: Placed, maneuvers: Sequence[Maneuver]) -> Mapping[str, "Reference"]:
+def turn_references(
+    placed: PlacedDevice, maneuvers: Sequence[Maneuver]
+) -> Mapping[str, "Reference"]:
     """Planned turns that the flights track, by name; none without a motor's data."""
     if placed.designed.choice is None or not maneuvers:
         return {}
     robot, designed = placed.robot, placed.designed
-    stops = placed.resolved.requirement.detection is not None
-    return planned_turns(robot, designed.device, maneuvers, designed.kept, one_stops=stops)
+    one_stops = placed.resolved.requirement.detection is not None
+    return planned_turns(robot, designed.device, maneuvers, designed.kept, one_stops=one_stops)
 
 
-def turns_not_made(placed: Placed, references: Mapping[str, "Reference"]) -> Iterator[str]:
-    """Turns that the device cannot make in time, with the time that they would take."""
+def impossible_turns(placed: PlacedDevice, references: Mapping[str, "Reference"]) -> Iterator[str]:
+    """Turns that the device cannot make in time, each with the time that it would take."""
     for maneuver in placed.resolved.requirement.maneuvers:
         reference = references.get(maneuver.name)
         if reference is None or reference.trajectory is not None:
@@ -334,8 +345,8 @@ class Certificate:
 
 
 @dataclass(frozen=True, eq=False)
-class Proof:
-    """Plans of a device's flights, its flights as designed, and its certificate.
+class FlightResults:
+    """A device's flights as designed, what they were planned from, and its certificate.
 
     Attributes:
         references: planned turns that the flights track, by name of maneuver.
@@ -351,11 +362,11 @@ class Proof:
     certificate: Certificate | None = None
 
 
-def prove(placed: Placed, specified: ValidationSection, steps: Steps) -> Proof:
+def plan_and_fly(placed: PlacedDevice, specified: ValidationSection, steps: Steps) -> FlightResults:
     """Plan the maneuvers and, if validation is enabled, fly them."""
     requirement, jumps = placed.resolved.requirement, dict[str, JumpPlans]()
     with steps.step("plan the maneuvers"):
-        references = references_of(placed, requirement.maneuvers)
+        references = turn_references(placed, requirement.maneuvers)
     if specified.enabled is not False:
         with steps.step("plan the jumps") as step:
             jumps = {} if placed.jumping is None else dict(placed.jumping.plans())
@@ -373,16 +384,18 @@ def prove(placed: Placed, specified: ValidationSection, steps: Steps) -> Proof:
         detection=requirement.detection,
     )
     if specified.enabled is False:
-        return Proof(references, flights)
+        return FlightResults(references, flights)
     runs = flights.fly(steps, pose_rate=POSE_RATE)
-    return Proof(references, flights, runs, flights.fly_stopped(steps))
+    return FlightResults(references, flights, runs, flights.fly_stopped(steps))
 
 
-def certify(placed: Placed, proof: Proof, steps: Steps, *, strict: bool) -> tuple[Placed, Proof]:
+def certify(
+    placed: PlacedDevice, results: FlightResults, steps: Steps, *, strict: bool
+) -> tuple[PlacedDevice, FlightResults]:
     """Fly sampled robots; a device that falls short is resized with more reserve.
 
     Args:
-        placed: the device. proof: its flights as designed.
+        placed: the device. results: its flights as designed.
         steps: progress. strict: warnings are errors.
 
     Returns:
@@ -393,7 +406,7 @@ def certify(placed: Placed, proof: Proof, steps: Steps, *, strict: bool) -> tupl
     """
     specification = placed.specification
     specified = specification.validation
-    if not proof.runs:
+    if not results.runs:
         raise UsageError(
             "--certify repeats maneuvers, but none is specified",
             hint="leave it out, or add a maneuver, as in --fall 1m",
@@ -401,7 +414,9 @@ def certify(placed: Placed, proof: Proof, steps: Steps, *, strict: bool) -> tupl
     test = SequentialTest(placed.resolved.reliability or RELIABILITY)
     rounds: list[str] = []
     for number in range(1, ROUNDS + 1):
-        campaign = proof.flights.campaign(proof.runs, specification.reality, specified.seed or 0)
+        campaign = results.flights.campaign(
+            results.runs, specification.reality, specified.seed or 0
+        )
         with steps.step(f"fly the certificate, round {number}") as step:
             flown = run_campaign(
                 campaign,
@@ -420,7 +435,7 @@ def certify(placed: Placed, proof: Proof, steps: Steps, *, strict: bool) -> tupl
         outcomes = flown.take(slice(reliability.samples))
         reliability = replace(reliability, rounds=tuple(rounds))
         record = replace(summarise(campaign, outcomes, test.most_flights), certificate=reliability)
-        proof = replace(proof, certificate=Certificate(campaign, outcomes, record))
+        results = replace(results, certificate=Certificate(campaign, outcomes, record))
         if reserve is None or conclusion is None or conclusion.factor == 1.0:
             break
         with steps.step("resize the device with more reserve") as step:
@@ -436,6 +451,6 @@ def certify(placed: Placed, proof: Proof, steps: Steps, *, strict: bool) -> tupl
                 step.note = "no device has that reserve"
                 break
             step.note = resized.combinations
-        placed = resized.with_substitutions(placed.taken)
-        proof = prove(placed, specified, steps)
-    return placed, proof
+        placed = resized.with_substitutions(placed.substitutions)
+        results = plan_and_fly(placed, specified, steps)
+    return placed, results

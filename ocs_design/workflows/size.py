@@ -43,13 +43,13 @@ from ocs_design.sizing.design import mass_without_survival
 from ocs_design.workflows.flying import flown_hash
 from ocs_design.workflows.recording import record_design, record_run, write_runs
 from ocs_design.workflows.rounds import (
-    Placed,
-    Proof,
+    FlightResults,
+    PlacedDevice,
     certify,
-    prove,
+    impossible_turns,
+    plan_and_fly,
     size_for_turns,
     size_or_advise,
-    turns_not_made,
 )
 
 
@@ -118,11 +118,11 @@ def design_ocs(
     """
     specification = specification_of(design_for)
     specified = specification.validation
-    flying = {"--video films the": specified.video, "--certify repeats the": specified.certify}
-    for what, requested in flying.items():
+    options = {"--video films the": specified.video, "--certify repeats the": specified.certify}
+    for phrase, requested in options.items():
         if requested and specified.enabled is False:
             raise UsageError(
-                f"{what} flights, but --no-validate flies none", hint="leave one of them out"
+                f"{phrase} flights, but --no-validate flies none", hint="leave one of them out"
             )
     steps = Steps.of(progress)
     if out is not None:
@@ -140,15 +140,15 @@ def design_ocs(
     wait_for_alternatives = (
         None if specified.certify else start(placed.task, placed.designed.choice)
     )
-    proof = prove(placed, specified, steps)
+    results = plan_and_fly(placed, specified, steps)
     if specified.certify:
-        placed, proof = certify(placed, proof, steps, strict=strict)
+        placed, results = certify(placed, results, steps, strict=strict)
     wait_for_alternatives = wait_for_alternatives or start(placed.task, placed.designed.choice)
-    device, runs = placed.designed.device, proof.runs
+    device, runs = placed.designed.device, results.runs
     with staged_folder(folder, force=force) as staging:
         with steps.step("export parts and robot files"):
             # The model is released after the files are written: nothing refers to the subject.
-            margins = record_margins(placed.resolved, placed.designed, runs, proof.references)
+            margins = record_margins(placed.resolved, placed.designed, runs, results.references)
             buildable = buildable_of(robot, placed.designed, margins, placed.mounting)
             remarks = export_formats(
                 replace(
@@ -158,7 +158,7 @@ def design_ocs(
                 staging,
             )
             robot = replace(robot, warnings=(*robot.warnings, *remarks))
-        unfilmed = _write_flights(placed, proof, staging, steps)
+        film_remarks = _write_flights(placed, results, staging, steps)
         with steps.step("search lighter alternatives"):
             lighter, driving_maneuver = wait_for_alternatives()
         trade_offs = _lighter_changes(placed, driving_maneuver, steps)
@@ -170,9 +170,13 @@ def design_ocs(
                 placed.resolved,
                 placed.designed,
                 margins=margins,
-                built=buildable,
+                buildable=buildable,
                 mounting=placed.mounting,
-                warnings=(*turns_not_made(placed, proof.references), *placed.warnings, *unfilmed),
+                warnings=(
+                    *impossible_turns(placed, results.references),
+                    *placed.warnings,
+                    *film_remarks,
+                ),
                 seed=specified.seed or 0,
                 package_paths=package_paths,
             ),
@@ -187,13 +191,13 @@ def design_ocs(
             owed=driving_maneuver,
             lighter=trade_offs,
         )
-        if proof.survival is not None:
+        if results.survival is not None:
             with steps.step("size a device that need not survive"):
                 mass_without = mass_without_survival(placed.task)
-            design = replace(design, survival=replace(proof.survival, mass_without=mass_without))
-        if proof.certificate is not None:
-            design = replace(design, reliability=proof.certificate.record.certificate)
-            proof.certificate.write(
+            design = replace(design, survival=replace(results.survival, mass_without=mass_without))
+        if results.certificate is not None:
+            design = replace(design, reliability=results.certificate.record.certificate)
+            results.certificate.write(
                 staging, flown_hash(design, control, design.requirement.detection)
             )
         with steps.step("write the report"):
@@ -217,11 +221,13 @@ def load_solvers(specification: Specification) -> None:
         import_module("ocs_design.sizing.trajectory.plans")
 
 
-def _write_flights(placed: Placed, proof: Proof, folder: Path, steps: Steps) -> tuple[str, ...]:
+def _write_flights(
+    placed: PlacedDevice, results: FlightResults, folder: Path, steps: Steps
+) -> tuple[str, ...]:
     """Write the flights as designed, and film them if requested; returns why a film is missing."""
-    if not proof.runs:
+    if not results.runs:
         return ()
-    write_runs(proof.runs, folder, proof.survival)
+    write_runs(results.runs, folder, results.survival)
     if not placed.specification.validation.video:
         return ()
     with steps.step("film the flights"):
@@ -229,13 +235,13 @@ def _write_flights(placed: Placed, proof: Proof, folder: Path, steps: Steps) -> 
             placed.robot,
             placed.designed.device,
             placed.resolved.requirement.maneuvers,
-            proof.runs,
+            results.runs,
             folder / "validation",
         )
 
 
 def _lighter_changes(
-    placed: Placed, driving_maneuver: DrivingManeuver | None, steps: Steps
+    placed: PlacedDevice, driving_maneuver: DrivingManeuver | None, steps: Steps
 ) -> TradeOffs | None:
     """Changes that would make the device lighter, if requested."""
     by, choice = placed.specification.ocs.lighter_by, placed.designed.choice

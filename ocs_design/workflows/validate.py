@@ -71,7 +71,7 @@ class _Request:
         given = [name for name, value in alternatives.items() if value is not None]
         certifies, engine = self.specified.validation.certify is True, f"--engine {self.engine}"
         other_engine, width = self.engine != EngineName.MUJOCO, self.until_width
-        refused = {
+        faults = {
             f"{' and '.join(given)} exclude each other": (len(given) > 1, "give one"),
             f"--sample {self.sample}: must be a whole number from 0": ((self.sample or 0) < 0, ""),
             f"{'; '.join(given)} and --certify exclude each other: one robot certifies nothing": (
@@ -111,9 +111,9 @@ class _Request:
                 "",
             ),
         }
-        for what, (wrong, cure) in refused.items():
-            if wrong:
-                raise UsageError(what, hint=cure)
+        for message, (applies, hint) in faults.items():
+            if applies:
+                raise UsageError(message, hint=hint)
         if self.view:
             check_display()
 
@@ -311,15 +311,15 @@ def watch(answer: Validation) -> None:
     Raises:
         MissingToolError: no window can be opened.
     """
-    flights, shown = answer.flights, [run for run in answer.runs if run.ocs]
+    flights, with_device = answer.flights, [run for run in answer.runs if run.ocs]
     device_of = {maneuver.name: flights.device.as_flown(maneuver) for maneuver in flights.maneuvers}
-    posed = [(run.scenario, run.poses) for run in shown if run.poses is not None]
+    scenario_poses = [(run.scenario, run.poses) for run in with_device if run.poses is not None]
     takes = [
         Take(film_model(flights.robot, device_of[scenario], ocs=True), poses.qpos)
-        for scenario, poses in posed
+        for scenario, poses in scenario_poses
     ]
     # Poses are whole control steps apart, so their rate is not exactly `POSE_RATE`.
-    periods = [float(poses.time[1] - poses.time[0]) for _, poses in posed]
+    periods = [float(poses.time[1] - poses.time[0]) for _, poses in scenario_poses]
     watch_takes(takes, next(iter(periods), 1.0 / POSE_RATE))
 
 

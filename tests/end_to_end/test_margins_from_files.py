@@ -10,7 +10,7 @@ from flown_margins import FlownMargins, catalogue_row
 from subsets import fast_subset
 
 from ocs_design.common.errors import OcsError
-from ocs_design.workflows.restoring import read_designed
+from ocs_design.workflows.restoring import read_design_and_device
 
 pytestmark = pytest.mark.slow
 
@@ -188,7 +188,7 @@ def test_a_limit_changed_by_hand_is_refused_with_its_key(sized, key, message, tm
     with_value(document, key, lambda figure: 1.01 * figure)
     (tmp_path / "design.json").write_text(json.dumps(document))
     with pytest.raises(OcsError, match=f"{key} is .*{message}"):
-        read_designed(tmp_path)
+        read_design_and_device(tmp_path)
 
 
 @pytest.mark.parametrize("product", ["motor"], indirect=True)

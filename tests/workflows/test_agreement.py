@@ -15,7 +15,7 @@ from ocs_design.requirement.device_sections import FlywheelSection, MotorSection
 from ocs_design.requirement.sections import RequirementSection
 from ocs_design.requirement.specification import Specification
 from ocs_design.workflows.export import export_design
-from ocs_design.workflows.restoring import read_designed
+from ocs_design.workflows.restoring import read_design_and_device
 
 DATA = Path(__file__).parents[1] / "data"
 
@@ -47,7 +47,7 @@ def written(kind):
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_design_agrees_with_itself(kind, tmp_path):
     (tmp_path / "design.json").write_bytes(written(kind))
-    design, device = read_designed(tmp_path)
+    design, device = read_design_and_device(tmp_path)
     assert device.mass == design.ocs.mass_total
 
 
@@ -55,7 +55,7 @@ def test_a_design_agrees_with_itself(kind, tmp_path):
 def test_designs_of_older_versions_are_read(name, tmp_path):
     """Also after an export, which writes a document of this schema."""
     export_design(DATA / f"{name}.json", "bom", out=tmp_path / "again")
-    read_designed(tmp_path / "again")
+    read_design_and_device(tmp_path / "again")
 
 
 def edited(folder, key, value, kind="disc"):
@@ -93,14 +93,14 @@ def edited(folder, key, value, kind="disc"):
 )
 def test_a_contradiction_is_refused_with_its_key(key, value, message, tmp_path):
     with pytest.raises(OcsError, match=rf"design\.json: .*{message}") as refused:
-        read_designed(edited(tmp_path, key, value))
+        read_design_and_device(edited(tmp_path, key, value))
     assert refused.value.exit_code == 3
     assert "size" in refused.value.hint
 
 
 def test_a_wheel_without_a_motor_is_checked_too(tmp_path):
     with pytest.raises(OcsError, match=r"ocs\.flywheel\.mass is"):
-        read_designed(edited(tmp_path, "ocs.flywheel.inner_radius", 0.02, "no motor"))
+        read_design_and_device(edited(tmp_path, "ocs.flywheel.inner_radius", 0.02, "no motor"))
 
 
 @pytest.mark.parametrize("command", ["export", "validate"])

@@ -15,14 +15,14 @@ from ocs_design.device.findings import Examination, Finding, State
 from ocs_design.report.text.answers import print_examination
 from ocs_design.workflows import doctor
 from ocs_design.workflows.doctor import (
-    compiler,
+    compiler_finding,
     examination_to_json,
     examine,
-    ffmpeg,
-    opengl,
-    processors,
-    python,
-    working_folder,
+    ffmpeg_finding,
+    folder_finding,
+    opengl_findings,
+    processors_finding,
+    python_finding,
 )
 
 
@@ -95,26 +95,26 @@ def test_optional_packages_are_additions_not_fixes():
 
 
 def test_this_python_is_accepted():
-    assert python().state is State.WORKS
-    assert python().wanted == ">=3.11"
+    assert python_finding().state is State.WORKS
+    assert python_finding().wanted == ">=3.11"
 
 
 def test_a_writable_folder_stays_unchanged(tmp_path):
-    folder = working_folder(tmp_path)
+    folder = folder_finding(tmp_path)
     assert folder.state is State.WORKS
     assert folder.found.endswith("GB free")
     assert list(tmp_path.iterdir()) == []
 
 
 def test_a_missing_folder_is_reported(tmp_path):
-    folder = working_folder(tmp_path / "none")
+    folder = folder_finding(tmp_path / "none")
     assert folder.is_blocking
     assert folder.cure
     assert "No such file" in folder.reason
 
 
 def test_processors_are_counted():
-    assert int(processors().found) >= 1
+    assert int(processors_finding().found) >= 1
 
 
 @pytest.mark.parametrize(
@@ -132,13 +132,13 @@ def test_the_video_encoder(script, state, found, tmp_path, monkeypatch):
         program.chmod(0o755)
     monkeypatch.setenv("PATH", str(tmp_path))
     monkeypatch.setattr("ocs_design.export.programs.find_spec", lambda name: None)
-    assert (ffmpeg().state, ffmpeg().found) == (state, found)
-    assert bool(ffmpeg().cure) == (state is State.MISSING)
+    assert (ffmpeg_finding().state, ffmpeg_finding().found) == (state, found)
+    assert bool(ffmpeg_finding().cure) == (state is State.MISSING)
 
 
 def test_missing_opengl_has_reason_and_cure(monkeypatch):
     monkeypatch.setenv("MUJOCO_GL", "none such")
-    (only,) = opengl()
+    (only,) = opengl_findings()
     assert only.state is State.MISSING
     assert "none such" in only.reason
     assert "apt install" in only.cure
@@ -150,5 +150,5 @@ def test_the_compiler(name, tmp_path, monkeypatch):
     if name is not None:
         (tmp_path / name).touch(mode=0o755)
     monkeypatch.setenv("PATH", str(tmp_path))
-    assert compiler().found == (name or "")
-    assert bool(compiler().cure) == (name is None)
+    assert compiler_finding().found == (name or "")
+    assert bool(compiler_finding().cure) == (name is None)

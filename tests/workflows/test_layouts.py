@@ -23,7 +23,7 @@ from ocs_design.sizing.trajectory.plans import drive_line_of, plan
 from ocs_design.workflows import layouts
 from ocs_design.workflows.layouts import compare_layouts
 from ocs_design.workflows.pareto import read_task
-from ocs_design.workflows.restoring import read_designed
+from ocs_design.workflows.restoring import read_design_and_device
 from ocs_design.workflows.size import design_ocs
 
 pytestmark = pytest.mark.usefixtures("no_alternatives", "no_files")
@@ -120,7 +120,7 @@ def test_four_wheels_where_two_are_too_weak(tmp_path):
     assert len(device.modules) == 4
     assert any("double-pair" in line for line in outcome.design.requirement.assumptions)
     assert any("4 wheels" in label for label in labels)
-    recorded = read_designed(outcome.folder)[0].ocs
+    recorded = read_design_and_device(outcome.folder)[0].ocs
     assert recorded.axes == device.layout
     assert [module.name for module in recorded.modules] == [
         "left_1",
@@ -312,7 +312,7 @@ def test_a_triad_for_solo12_can_be_built(tmp_path):
     assert plate.arms == len(ocs.modules)
     modules = len(ocs.modules) * (ocs.flywheel.mass + ocs.carrier.mass)
     assert ocs.mass_total == pytest.approx(modules + plate.mass)
-    assert read_designed(tmp_path / "a")[1].plate == plate
+    assert read_design_and_device(tmp_path / "a")[1].plate == plate
 
 
 @pytest.mark.slow
@@ -323,7 +323,7 @@ def test_a_surviving_device_lands_whichever_drive_stops(layout, tmp_path):
     survival = outcome.design.survival
     assert not survival.lost
     assert outcome.device.mass > survival.mass_without
-    assert read_designed(outcome.folder)[0].survival == survival
+    assert read_design_and_device(outcome.folder)[0].survival == survival
     rows = (outcome.folder / "validation" / "stopped.csv").read_text().splitlines()
     assert len(rows) == 1 + len(survival.flights) == 1 + 8 * len(outcome.device.modules)
     assert read_design(outcome.folder).requirement.detection == 0.02

@@ -5,7 +5,7 @@ import pytest
 from designed_devices import MOTOR, design_with_motor, record_of
 
 from ocs_design.device.layout import heading_drift
-from ocs_design.workflows.recording import HOUSING_ASSUMED, record_selection
+from ocs_design.workflows.recording import HOUSING_ASSUMPTION, record_selection
 
 
 @pytest.fixture(scope="module", params=["none", MOTOR])
@@ -27,7 +27,7 @@ def test_the_required_inertia_is_the_largest_momentum_at_the_highest_speed(recor
 def test_a_housing_is_assumed_only_where_there_is_one(recorded):
     _, sizing, design = recorded
     has_housing = sizing.device.carrier.mass > 0.0
-    assert (HOUSING_ASSUMED in design.requirement.assumptions) is has_housing
+    assert (HOUSING_ASSUMPTION in design.requirement.assumptions) is has_housing
     assert (design.selection is not None) is has_housing
 
 

@@ -17,7 +17,7 @@ from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.turns import TurnTo
 from ocs_design.sizing.on_robot import NoMountHolds
 from ocs_design.workflows import rounds
-from ocs_design.workflows.rounds import Placed, size_for_turns, size_or_advise
+from ocs_design.workflows.rounds import PlacedDevice, size_for_turns, size_or_advise
 from ocs_design.workflows.size import design_ocs
 
 TURN = TurnTo(name="turn", jump_height=1.0, yaw=1.0, duration=1.0)
@@ -38,7 +38,7 @@ def placed():
     task, sizing = design_with_motor()
     requirement = replace(task.resolved.requirement, maneuvers=(TURN,))
     resolved = replace(task.resolved, requirement=requirement, assumptions=("assumed",))
-    return Placed(task.specification, task.robot, resolved, sizing, None, ("near",), None)
+    return PlacedDevice(task.specification, task.robot, resolved, sizing, None, ("near",), None)
 
 
 def test_a_turn_that_needs_larger_wheels_is_sized_again(placed, monkeypatch):
@@ -49,7 +49,7 @@ def test_a_turn_that_needs_larger_wheels_is_sized_again(placed, monkeypatch):
         return replace(placed, estimates=estimates)
 
     plans = iter([{"turn": Reference(1.5)}, {"turn": Reference(None)}])
-    monkeypatch.setattr(rounds, "references_of", lambda *_: next(plans))
+    monkeypatch.setattr(rounds, "turn_references", lambda *_: next(plans))
     monkeypatch.setattr(rounds, "size_on_robot", size_again)
     changes = (("Layout: four wheels.",), ("four wheels are needed",))
     final = size_for_turns(placed.with_substitutions(changes), Steps(), strict=False)
