@@ -21,8 +21,8 @@ from ocs_design.requirement.boundary import (
     Freedom,
     Push,
 )
-from ocs_design.requirement.phrases import GRAVITY
 from ocs_design.requirement.values import (
+    GRAVITY,
     INCIDENCE,
     SPIN,
     TILT,

@@ -1,4 +1,4 @@
-"""Parts of a maneuver that a user writes as one text: a kick, a tilt, a turn, a planet."""
+"""Parts of a maneuver that a user writes as one text: a kick, a tilt, a turn."""
 
 import re
 from collections.abc import Mapping
@@ -50,13 +50,6 @@ SIDES: Mapping[str, Vector3] = MappingProxyType(
     }
 )
 """Directions of a kick, by the side it comes from."""
-
-GRAVITY = NamedQuantity(
-    Dimension.ACCELERATION,
-    Sign.NOT_NEGATIVE,
-    words={"earth": 9.81, "moon": 1.62, "mars": 3.71, "orbit": 0.0},
-)
-"""Gravity: of the Earth and the Moon as in the paper; of Mars, NASA, Mars Fact Sheet."""
 
 FLIP = NamedQuantity(
     Dimension.ANGLE,

@@ -12,7 +12,6 @@ from ocs_design.requirement.keys import keyed
 from ocs_design.requirement.phrases import (
     CATCH_TEXT,
     FLIP,
-    GRAVITY,
     TURN_TEXT,
     About,
     Climb,
@@ -28,6 +27,7 @@ from ocs_design.requirement.phrases import (
     upset_text,
 )
 from ocs_design.requirement.values import (
+    GRAVITY,
     HEIGHT,
     MASS,
     TIME,

@@ -481,3 +481,10 @@ TILT = angle(Sign.ANY, pi, pi / 2)
 
 YAW = angle(Sign.ANY, 2.0 * pi, ONE_TURN)
 SPIN = Quantity(Dimension.ANGULAR_SPEED, Sign.ANY, most_bare=FASTEST_BARE, likely="rpm")
+
+GRAVITY = NamedQuantity(
+    Dimension.ACCELERATION,
+    Sign.NOT_NEGATIVE,
+    words={"earth": 9.81, "moon": 1.62, "mars": 3.71, "orbit": 0.0},
+)
+"""Gravity: of the Earth and the Moon as in the paper; of Mars, NASA, Mars Fact Sheet."""

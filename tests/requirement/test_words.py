@@ -18,7 +18,6 @@ from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.requirement.phrases import (
     CATCH_TEXT,
     FLIP,
-    GRAVITY,
     TURN_TEXT,
     About,
     Kick,
@@ -34,6 +33,7 @@ from ocs_design.requirement.resolving import resolve
 from ocs_design.requirement.sections import RequirementSection
 from ocs_design.requirement.specification import Specification, merge, specification_from_options
 from ocs_design.requirement.sweep import SWEEPS, Task
+from ocs_design.requirement.values import GRAVITY
 from ocs_design.requirement.worded_maneuvers import worded_maneuvers
 from ocs_design.robot.reader import read_robot
 
