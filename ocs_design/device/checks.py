@@ -14,6 +14,7 @@ import numpy as np
 from ocs_design.common.errors import OcsError, SpecificationError
 from ocs_design.common.ranges import LARGEST_LENGTH, SMALLEST_LENGTH, ranges_of
 from ocs_design.device.device import Device, Flywheel
+from ocs_design.device.records.flights import ControlRecord
 from ocs_design.parts.carrier_plate import CarrierPlate, Mast
 from ocs_design.robot.mass import MassProperties
 
@@ -48,6 +49,20 @@ def check_device(device: Device) -> None:
     if faults:
         raise OcsError(
             f"the design describes a device that cannot exist: {'; '.join(faults)}",
+            hint="run `ocs-design size` again to write a new design",
+        )
+
+
+def check_control(control: ControlRecord) -> None:
+    """Refuse a wheel law that cannot be flown.
+
+    Raises:
+        OcsError: lists every fault.
+    """
+    faults = [*_figures(control, "control")]
+    if faults:
+        raise OcsError(
+            f"the design describes a wheel law that cannot be flown: {'; '.join(faults)}",
             hint="run `ocs-design size` again to write a new design",
         )
 

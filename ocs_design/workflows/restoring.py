@@ -13,7 +13,7 @@ from ocs_design.common.errors import OcsError, RobotError
 from ocs_design.common.files import AnyPath
 from ocs_design.common.frames import Placement
 from ocs_design.device.agreement import check_agreement
-from ocs_design.device.checks import check_device
+from ocs_design.device.checks import check_control, check_device
 from ocs_design.device.device import Device
 from ocs_design.device.records.design import OcsDesign, design_file, read_design
 from ocs_design.device.records.requirement import RobotRecord
@@ -30,12 +30,15 @@ def read_design_and_device(path: AnyPath) -> tuple[OcsDesign, Device]:
     """A design, and its device.
 
     Raises:
-        OcsError: it cannot be read, no such device can exist, or its figures contradict each other.
+        OcsError: it cannot be read, no such device or wheel law can exist, or its figures
+            contradict each other.
     """
     design = read_design(path)
     try:
         device = design.ocs.device(design.supply)
         check_device(device)
+        if design.control is not None:
+            check_control(design.control)
         check_agreement(design, device)
     except OcsError as error:
         raise OcsError(f"{design_file(path)}: {error.message}", hint=error.hint) from error

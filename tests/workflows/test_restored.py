@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import msgspec
@@ -13,7 +14,9 @@ from robots import ROBOTS, robot_parameters
 
 from ocs_design.common.errors import OcsError, RobotError
 from ocs_design.common.files import to_json
+from ocs_design.device.checks import check_control
 from ocs_design.device.records.design import read_design
+from ocs_design.device.records.flights import ControlRecord
 from ocs_design.device.records.requirement import ManeuverRecord, RobotRecord
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.posture import OUTSIDE
@@ -157,12 +160,42 @@ def test_a_maneuver_is_restored():
 
 @pytest.mark.parametrize(
     "changes",
-    [{"height": None}, {"gravity": 9.81}, {"speed": 1.0}, {"pitch": (1.0, 2.0)}],
-    ids=["missing", "twice", "unknown", "several"],
+    [
+        {"height": None},
+        {"gravity": 9.81},
+        {"speed": 1.0},
+        {"pitch": (1.0, 2.0)},
+        {"height": -1.0},
+        {"pitch": 4.0},
+    ],
+    ids=["missing", "twice", "unknown", "several", "negative", "beyond half a turn"],
 )
 def test_a_maneuver_with_wrong_parameters_is_refused(changes):
     with pytest.raises(OcsError, match=r"maneuver 'it': .*drop"):
         drop(**changes).maneuver()
+
+
+def test_a_maneuver_under_a_gravity_that_lifts_is_refused():
+    """CasADi's own assertion was the message."""
+    with pytest.raises(OcsError, match=r"gravity of a drop cannot be -3\.0"):
+        replace(drop(), gravity=-3.0).maneuver()
+
+
+def test_a_turn_in_orbit_is_restored_without_a_jump():
+    floating = recorded("turn", {"jump_height": 0.0, "duration": 9.0, "yaw": 0.5})
+    assert replace(floating, gravity=0.0).maneuver().jump_height == 0.0
+
+
+@pytest.mark.parametrize(
+    "change", [{"kp": -5.0}, {"kd": 0.0}, {"period": 0.0}, {"projection": "foo"}], ids=str
+)
+def test_a_wheel_law_that_cannot_be_flown_is_refused(change):
+    """A period of 0 ended in a division by zero, and a negative gain was flown."""
+    law = ControlRecord(projection="transpose", kp=60.0, kd=12.0)
+    assert check_control(law) is None
+    (figure,) = change
+    with pytest.raises(OcsError, match=f"control.{figure} is"):
+        check_control(replace(law, **change))
 
 
 def test_a_vector_of_the_wrong_length_is_refused():
@@ -172,7 +205,7 @@ def test_a_vector_of_the_wrong_length_is_refused():
         "onset": 0.1,
         "duration": 0.05,
     }
-    with pytest.raises(OcsError, match="torque of a disturbance is not"):
+    with pytest.raises(OcsError, match="torque of a disturbance cannot be"):
         recorded("disturbance", parameters).maneuver()
 
 
@@ -181,9 +214,9 @@ def test_a_turn_is_restored_with_its_end():
     turn = recorded("turn", parameters | {"end": "at rest"}).maneuver()
     assert (turn.yaw, turn.rate, turn.end) == (1.57, (0.1, 0.0, 0.0), "at rest")
     for end in ("upright", 1.0):
-        with pytest.raises(OcsError, match="end of a turn is not"):
+        with pytest.raises(OcsError, match="end of a turn cannot be"):
             recorded("turn", parameters | {"end": end}).maneuver()
-    with pytest.raises(OcsError, match="yaw of a turn is not 'far'"):
+    with pytest.raises(OcsError, match="yaw of a turn cannot be 'far'"):
         recorded("turn", parameters | {"yaw": "far"}).maneuver()
 
 

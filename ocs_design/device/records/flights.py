@@ -3,7 +3,10 @@
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import TypeAlias
+from typing import Annotated, TypeAlias
+
+from ocs_design.common.ranges import OneOf, Positive, Range
+from ocs_design.requirement.vocabulary import PROJECTIONS
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -13,10 +16,10 @@ class ControlRecord:
     `ballistic` flights start at lift-off, as in all designs that lack this field.
     """
 
-    projection: str
-    kp: float
-    kd: float
-    period: float = 0.005
+    projection: Annotated[str, OneOf(PROJECTIONS)]
+    kp: Positive
+    kd: Positive
+    period: Annotated[float, Range(1e-3, 1.0)] = 0.005
     desaturate: bool = False
     ballistic: bool = True
 

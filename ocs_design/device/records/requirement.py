@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field, fields
+from math import isfinite, nan
 from typing import Any
 
 import numpy as np
@@ -12,7 +13,7 @@ from ocs_design.common.files import AnyPath
 from ocs_design.common.records import recorded
 from ocs_design.requirement.kinds import MANEUVER_KINDS, kind_of
 from ocs_design.requirement.maneuver import Maneuver
-from ocs_design.requirement.values import Choice, Quantities
+from ocs_design.requirement.values import Choice, Quantities, Quantity
 from ocs_design.robot.robot import Mount, Robot
 
 
@@ -99,7 +100,8 @@ class ManeuverRecord:
         """The required maneuver.
 
         Raises:
-            OcsError: its kind is unknown, or does not have these fields.
+            OcsError: its kind is unknown, or does not have these fields, or one has an impossible
+                value.
         """
         kind, specified = MANEUVER_KINDS.get(self.kind), set(self.parameters)
         common = {field.name for field in fields(Maneuver)}
@@ -108,14 +110,20 @@ class ManeuverRecord:
             or not set(kind.required) - common <= specified <= set(kind.values) - common
         ):
             raise OcsError(f"maneuver {self.name!r}: no {self.kind} with these figures is known")
-        for name, value in self.parameters.items():
-            # A single figure, or the required number of them.
-            read, count = kind.values[name], len(value) if isinstance(value, tuple) else None
-            words = read.words if isinstance(read, Choice) else ()
-            if count not in (read.counts if isinstance(read, Quantities) else (None,)) or (
-                (words or isinstance(value, str)) and value not in words
-            ):
-                raise OcsError(f"maneuver {self.name!r}: {name} of a {self.kind} is not {value!r}")
+        defaults = {field.name: field.default for field in fields(kind.maneuver)}
+        recorded_values = {**self.parameters, "gravity": self.gravity, "incidence": self.incidence}
+        for name, value in recorded_values.items():
+            match kind.values[name]:
+                case Choice(words=words):
+                    possible = value in words
+                case Quantities(counts=counts):
+                    possible = isinstance(value, tuple) and len(value) in counts
+                case Quantity(sign=sign, most=most):
+                    figure = value if isinstance(value, float | int) else nan
+                    possible = isfinite(figure) and sign.allows(figure) and abs(figure) <= most
+            # A default means that nothing is specified, as a height of 0 in orbit.
+            if not possible and value != defaults[name]:
+                raise OcsError(f"maneuver {self.name!r}: {name} of a {self.kind} cannot be {value!r}")
         figures: dict[str, Any] = {**self.parameters}
         return kind.maneuver(
             name=self.name, gravity=self.gravity, incidence=self.incidence, **figures
