@@ -123,7 +123,9 @@ class ManeuverRecord:
                     possible = isfinite(figure) and sign.allows(figure) and abs(figure) <= most
             # A default means that nothing is specified, as a height of 0 in orbit.
             if not possible and value != defaults[name]:
-                raise OcsError(f"maneuver {self.name!r}: {name} of a {self.kind} cannot be {value!r}")
+                raise OcsError(
+                    f"maneuver {self.name!r}: {name} of a {self.kind} cannot be {value!r}"
+                )
         figures: dict[str, Any] = {**self.parameters}
         return kind.maneuver(
             name=self.name, gravity=self.gravity, incidence=self.incidence, **figures
