@@ -127,9 +127,9 @@ def _housing_outline(outer):
 @lru_cache(maxsize=100_000)
 def _slots(height, thick):
     slot = Foot(Housing(1.0, height, MountHoles(), LID_SCREW), thick).slot.outline()
-    found = [area_moments(slot), area_moments(slot.turned(pi))]
-    second = sum(each[2] for each in found)
-    return sum(each[0] for each in found), second[0, 0], second[1, 1]
+    moments = [area_moments(slot), area_moments(slot.turned(pi))]
+    second = sum(each[2] for each in moments)
+    return sum(each[0] for each in moments), second[0, 0], second[1, 1]
 
 
 @lru_cache(maxsize=100_000)
@@ -145,9 +145,9 @@ def _plate(outer, mount):
 def _mount_outline(mount):
     """Moments of the mount's holes; circles of three or more are alike about both axes."""
     holes = [one for hole in mount.prisms(0.0, 1.0) for one in hole.each()]
-    found = [area_moments(hole.outline) for hole in holes]
-    second = sum((each[2] for each in found), np.zeros((2, 2)))
-    return sum(each[0] for each in found), (second[0, 0], second[1, 1])
+    moments = [area_moments(hole.outline) for hole in holes]
+    second = sum((each[2] for each in moments), np.zeros((2, 2)))
+    return sum(each[0] for each in moments), (second[0, 0], second[1, 1])
 
 
 def mount_of(motor, gear, thick):

@@ -72,9 +72,9 @@ def test_links_within_the_repository_exist(page):
         if target.startswith(("http://", "https://")):
             continue
         file, _, anchor = target.partition("#")
-        found = page.parent / file if file else page
-        assert found.exists(), target
-        assert not anchor or anchor in anchors(found), target
+        linked = page.parent / file if file else page
+        assert linked.exists(), target
+        assert not anchor or anchor in anchors(linked), target
 
 
 def test_the_gallery_shows_each_of_its_pictures_and_all_are_small():

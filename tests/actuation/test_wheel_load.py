@@ -185,9 +185,14 @@ def test_the_smallest_wheel_is_exactly_in_time(turning):
         task, line = replace(task, initial_speed=initial_speed), replace(line, power_max=power)
     armature = np.where(rng.random(20_000) < 0.5, 0.0, 10 ** rng.uniform(-7, -4, 20_000))
     h = smallest_spin_inertia(task, line, armature)
-    found = np.flatnonzero(np.isfinite(h))
-    assert 5_000 < found.size < 18_000
-    task, line, h, armature = row(task, found), row(line, found), h[found], armature[found]
+    feasible = np.flatnonzero(np.isfinite(h))
+    assert 5_000 < feasible.size < 18_000
+    task, line, h, armature = (
+        row(task, feasible),
+        row(line, feasible),
+        h[feasible],
+        armature[feasible],
+    )
     time = wheel_slew_time(task, h, line, armature)
     np.testing.assert_allclose(time, task.duration, rtol=1e-8 if turning else 1e-11)
     assert (wheel_slew_time(task, h * (1.0 - 1e-3), line, armature) > task.duration).all()
@@ -244,13 +249,13 @@ def test_the_smallest_wheel_is_found_where_time_is_not_monotonic():
     time = wheel_slew_time(task, grid, line, armature)
     in_time = time <= task.duration
     first = np.where(in_time.any(axis=0), grid[in_time.argmax(axis=0), np.arange(count)], INF)
-    found = np.isfinite(first)
-    assert (h[found] <= first[found] * (1.0 + 1e-12)).all()
-    assert (h[found] >= first[found] / step[found] * (1.0 - 1e-12)).all()
-    assert np.isinf(h[~found]).all()
-    assert 100 < found.sum() < count
+    feasible = np.isfinite(first)
+    assert (h[feasible] <= first[feasible] * (1.0 + 1e-12)).all()
+    assert (h[feasible] >= first[feasible] / step[feasible] * (1.0 - 1e-12)).all()
+    assert np.isinf(h[~feasible]).all()
+    assert 100 < feasible.sum() < count
     rises = (time[1:] > time[:-1] * (1.0 + 1e-12)).any(axis=0)
-    assert (rises & found).sum() > 20
+    assert (rises & feasible).sum() > 20
 
 
 def test_a_wheel_is_larger_than_its_negative_armature():
@@ -259,10 +264,10 @@ def test_a_wheel_is_larger_than_its_negative_armature():
     task, line = random_tasks(rng, 2_000), random_lines(rng, 2_000)
     relief = 0.1 / task.load().coupling
     h = smallest_spin_inertia(task, line, -relief)
-    found = np.isfinite(h)
+    feasible = np.isfinite(h)
     assert (h > relief).all()
-    time = wheel_slew_time(task, np.where(found, h, INF), line, -relief)
-    assert (time[found] <= task.duration[found] * (1.0 + 1e-11)).all()
+    time = wheel_slew_time(task, np.where(feasible, h, INF), line, -relief)
+    assert (time[feasible] <= task.duration[feasible] * (1.0 + 1e-11)).all()
 
 
 def test_bisection_finds_the_root_where_newton_fails(monkeypatch):
@@ -274,9 +279,9 @@ def test_bisection_finds_the_root_where_newton_fails(monkeypatch):
     )
     by_bisection = smallest_spin_inertia(task, line)
     time = wheel_slew_time(task, by_bisection, line)
-    found = np.isfinite(h)
-    assert (np.isfinite(by_bisection) == found).all()
-    np.testing.assert_allclose(time[found], task.duration[found], rtol=1e-11)
+    feasible = np.isfinite(h)
+    assert (np.isfinite(by_bisection) == feasible).all()
+    np.testing.assert_allclose(time[feasible], task.duration[feasible], rtol=1e-11)
 
 
 def test_an_uncontrolled_axis():
@@ -386,17 +391,17 @@ def test_layouts_against_optimal_control(layout):
     needs up to a third less.
     """
     elevation = np.radians(35.0) if layout.name == LayoutName.PYRAMID else 0.0
-    found = []
+    smallest = []
     for turn in ([0.0, 30.0], [20.0, 20.0]):
         swept = np.array([ROLL, BODY]) * np.radians(turn)
         task = WheelTask(swept, np.zeros(2), 0.385, axes(ROLL, BODY), layout.axes(elevation)[:2])
-        found.append(float(smallest_spin_inertia(task, EC45_LINE)))
+        smallest.append(float(smallest_spin_inertia(task, EC45_LINE)))
     pitch, both = LAYOUTS[layout]
-    assert 0.97 < found[0] / pitch < 0.995
+    assert 0.97 < smallest[0] / pitch < 0.995
     if np.isinf(both):
-        assert found[1] == INF
+        assert smallest[1] == INF
     else:
-        assert 0.97 < found[1] / both < 1.34
+        assert 0.97 < smallest[1] / both < 1.34
 
 
 def largest_swept_angle(reduced):
@@ -500,8 +505,8 @@ def test_a_wheel_that_starts_backwards_can_change_its_speed_by_more(pitch, sense
     task = WheelTask(0.0 * momentum, momentum, duration, axes(ROLL, BODY), pair(0.6))
     per_wheel = 0.01 / (2.0 * np.cos(0.6))
     for initial_speed in (-sense * w, sense * w):
-        found = smallest_spin_inertia(replace(task, initial_speed=initial_speed), line)
-        assert found == pytest.approx(per_wheel / (top - sense * initial_speed), rel=1e-6)
+        spin_inertia = smallest_spin_inertia(replace(task, initial_speed=initial_speed), line)
+        assert spin_inertia == pytest.approx(per_wheel / (top - sense * initial_speed), rel=1e-6)
     # A pair rolls the trunk by opposite wheels: one of them gains nothing.
     rolled = replace(task, momentum=momentum[::-1], initial_speed=-w)
     assert smallest_spin_inertia(rolled, line) == pytest.approx(

@@ -26,7 +26,7 @@ def test_the_wall_agrees_with_the_source_in_its_units():
 
 
 @given(st.floats(0.1, 1e4), st.floats(1e-3, 0.1))
-def test_a_wall_grows_with_energy_and_shrinks_with_the_missile_s_size(energy, size):
+def test_a_wall_grows_with_energy_and_shrinks_with_the_missiles_size(energy, size):
     assert steel_wall(8.0 * energy, size) == pytest.approx(4.0 * steel_wall(energy, size))
     assert steel_wall(energy, 2.0 * size) == pytest.approx(0.5 * steel_wall(energy, size))
 

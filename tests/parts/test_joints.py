@@ -184,7 +184,7 @@ def test_stronger_screws_need_more_thread_engagement():
 
 
 def test_the_catalogue_has_strong_screws_only_where_8_8_is_not_enough():
-    found = {}
+    designations = {}
     for each in motors().values():
         circle = None if each.mounting is None else each.mounting.rotor
         if circle is None or circle.screws == "8.8":
@@ -192,8 +192,8 @@ def test_the_catalogue_has_strong_screws_only_where_8_8_is_not_enough():
         required = SERVICE * each.peak_torque
         usual = replace(each.mounting, rotor=replace(circle, screws="8.8"))
         assert hub_joint(usual, 0.0) < required <= hub_joint(each.mounting, 0.0)
-        found[each.name] = mount_of(each, None).screwed[0].fastening.designation
-    assert found["U15 II KV80"] == "ISO 4762 M5 x 10 - 10.9"
+        designations[each.name] = mount_of(each, None).screwed[0].fastening.designation
+    assert designations["U15 II KV80"] == "ISO 4762 M5 x 10 - 10.9"
 
 
 def test_torque_of_a_cylinder_by_shear_on_its_surface():
@@ -211,13 +211,13 @@ def test_a_slip_fit_of_62_mm_may_be_24_um_off_centre():
 
 def test_balancing_holes_on_half_a_rim_add_up():
     rim = WHEEL[2]
-    found = correction(rim.inner, rim.outer, rim.thickness, 7850.0, chamfer=0.2e-3, ligament=1e-3)
-    assert (found.hole_radius, found.depth) == pytest.approx((0.7e-3, 2.3e-3))
-    assert found.mass == pytest.approx(2.0 * pi * 0.7e-3**2 * 2.3e-3 * 7850.0)
-    one = found.mass * found.radius
+    holes = correction(rim.inner, rim.outer, rim.thickness, 7850.0, chamfer=0.2e-3, ligament=1e-3)
+    assert (holes.hole_radius, holes.depth) == pytest.approx((0.7e-3, 2.3e-3))
+    assert holes.mass == pytest.approx(2.0 * pi * 0.7e-3**2 * 2.3e-3 * 7850.0)
+    one = holes.mass * holes.radius
     # Holes evenly on half a circle: 2 / pi of their sum.
-    count = int(pi * found.radius / 2.4e-3)
-    assert found.most == pytest.approx(one * count * 2.0 / pi, rel=0.02)
+    count = int(pi * holes.radius / 2.4e-3)
+    assert holes.most == pytest.approx(one * count * 2.0 / pi, rel=0.02)
     none = correction(0.0405, rim.outer, rim.thickness, 7850.0, chamfer=0.2e-3, ligament=1e-3)
     assert (none.hole_radius, none.most) == (0.0, 0.0)
 

@@ -111,11 +111,11 @@ def mountings(draw: st.DrawFn) -> Mounting:
 def test_hubs_for_all_accepted_mountings_can_be_made_with_the_sized_mass(mounting):
     wheel = wheel_on(hub_on(mounting))
     parts = total(wheel_parts(wheel.shape))
-    found = [parts.mass, parts.inertia[2, 2], parts.inertia[0, 0]]
+    exact = [parts.mass, parts.inertia[2, 2], parts.inertia[0, 0]]
     size = (wheel.inner_radius, wheel.outer_radius, wheel.height, wheel.density)
     body = wheel_body(*size, wheel.web.hub)
     expected = [body.mass, body.axial_inertia, body.transverse_inertia]
-    np.testing.assert_allclose(found, expected, rtol=1e-9)
+    np.testing.assert_allclose(exact, expected, rtol=1e-9)
     assert parts.inertia[1, 1] == pytest.approx(parts.inertia[0, 0], rel=1e-12)
 
 

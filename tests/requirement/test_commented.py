@@ -124,9 +124,9 @@ def leaves(value, path=""):
     if not isinstance(value, Mapping):
         return {path: value}
     return {
-        leaf: found
+        leaf: content
         for name, entry in value.items()
-        for leaf, found in leaves(entry, f"{path}.{name}").items()
+        for leaf, content in leaves(entry, f"{path}.{name}").items()
     }
 
 

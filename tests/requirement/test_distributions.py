@@ -101,10 +101,10 @@ def test_a_file_replaces_the_defaults(tmp_path):
         '[reality.com_error]\nvalue = "uniform(-2%, 2%)"\nof = "standing height"\n'
         'source = "weighed on three scales"\n'
     )
-    found = default_uncertainty(0.5, file=str(file))
-    assert found.mass_error == Normal(0.0, 0.01)
-    assert found.com_error == Uniform(-0.01, 0.01)
-    assert found.air_drag == default_uncertainty(0.5).air_drag
+    uncertainty = default_uncertainty(0.5, file=str(file))
+    assert uncertainty.mass_error == Normal(0.0, 0.01)
+    assert uncertainty.com_error == Uniform(-0.01, 0.01)
+    assert uncertainty.air_drag == default_uncertainty(0.5).air_drag
     assert entries(file)["com_error"].source == "weighed on three scales"
 
 
@@ -121,8 +121,8 @@ def test_a_pipe_is_read_once():
     os.write(write, b'[reality]\nmass_error = "normal(0, 3%)"\n')
     os.close(write)
     for _ in range(2):
-        found = default_uncertainty(0.5, file=f"/dev/fd/{read}")
-        assert found.mass_error == Normal(0.0, 0.03)
+        uncertainty = default_uncertainty(0.5, file=f"/dev/fd/{read}")
+        assert uncertainty.mass_error == Normal(0.0, 0.03)
     os.close(read)
 
 

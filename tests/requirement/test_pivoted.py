@@ -64,16 +64,16 @@ def test_a_swing_ends_upright_and_at_rest(tilt, rate, time, stiffness):
     if abs(diverging) < 1e-3 or converging / diverging < -np.exp(-pole * time):
         diverging = max(abs(diverging), 1e-3)
         tilt, rate = diverging, 0.0
-    found = swing(stiffness, inertia, tilt, rate, time)
+    plan = swing(stiffness, inertia, tilt, rate, time)
     sense = np.sign(tilt + rate / pole)
 
     def slope(torque):
         return lambda _, y: [y[1], (stiffness * y[0] - torque) / inertia]
 
     limits = {"rtol": 1e-10, "atol": 1e-12}
-    up = solve_ivp(slope(sense * found.torque), (0.0, found.switch), [tilt, rate], **limits)
-    span = (found.switch, time)
-    end = solve_ivp(slope(-sense * found.torque), span, up.y[:, -1], **limits).y[:, -1]
+    up = solve_ivp(slope(sense * plan.torque), (0.0, plan.switch), [tilt, rate], **limits)
+    span = (plan.switch, time)
+    end = solve_ivp(slope(-sense * plan.torque), span, up.y[:, -1], **limits).y[:, -1]
     np.testing.assert_allclose(end, 0.0, atol=1e-6)
 
 

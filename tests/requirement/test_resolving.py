@@ -311,8 +311,8 @@ def warnings_of(weighed, **options):
     ("weighed", "word"), [(2.7, "missing"), (2.53, ""), (2.47, ""), (2.2, "too heavy")]
 )
 def test_masses_that_do_not_add_up_are_reported(weighed, word):
-    found = [warning for warning in warnings_of(weighed) if warning.startswith(MASS_WARNING)]
-    assert [word in each for each in found] == [True] * bool(word)
+    reported = [warning for warning in warnings_of(weighed) if warning.startswith(MASS_WARNING)]
+    assert [word in each for each in reported] == [True] * bool(word)
     if word:
         with pytest.raises(RobotError, match=MASS_WARNING):
             warnings_of(weighed, strict=True)

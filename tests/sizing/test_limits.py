@@ -58,8 +58,8 @@ def test_absent_limits_cannot_be_loosened(now):
 
 
 def test_the_nearest_edge_of_a_window_is_found():
-    found = smallest_change(BY_NAME["r_max"], 1.0, lambda value: 2.0 <= value <= 3.0)
-    assert found == pytest.approx(2.0, rel=PRECISION)
+    nearest = smallest_change(BY_NAME["r_max"], 1.0, lambda value: 2.0 <= value <= 3.0)
+    assert nearest == pytest.approx(2.0, rel=PRECISION)
 
 
 def test_the_smallest_change_comes_first():
@@ -69,8 +69,8 @@ def test_the_smallest_change_comes_first():
         value, edge = problem.values[problem.limit], edges[problem.limit]
         return value >= edge if problem.limit.loosens_upwards else value <= edge
 
-    found = smallest_changes(Changed(dict.fromkeys(edges, 1.0)), edges, feasible)
-    assert [limit.name for limit in found] == ["wall_min", "r_max"]
+    changes = smallest_changes(Changed(dict.fromkeys(edges, 1.0)), edges, feasible)
+    assert [limit.name for limit in changes] == ["wall_min", "r_max"]
 
 
 @given(st.floats(1e-6, 1e6))

@@ -37,17 +37,18 @@ def on_box(x, y, z):
     return mounting_of(BOX, device_at(x, y, z), (), BOX.mass_properties)
 
 
-def test_clearance_above_a_box():
-    nearest = on_box(0.0, 0.05, HALF + 0.03 + 0.004).nearest
-    assert nearest.part == "base"
-    assert nearest.distance == pytest.approx(0.004, abs=1e-6)
-
-
-def test_clearance_between_the_wheels():
-    nearest = on_box(0.0, 0.0065, HALF + 0.2).nearest
-    assert nearest.part == "ocs_right_flywheel"
-    # Two wheels 10 mm high, centres 13 mm apart.
-    assert nearest.distance == pytest.approx(0.003, abs=1e-6)
+@pytest.mark.parametrize(
+    ("y", "z", "part", "distance"),
+    [
+        (0.05, HALF + 0.03 + 0.004, "base", 0.004),
+        # Two wheels 10 mm high, centres 13 mm apart.
+        (0.0065, HALF + 0.2, "ocs_right_flywheel", 0.003),
+    ],
+)
+def test_clearance_to_the_nearest_part(y, z, part, distance):
+    nearest = on_box(0.0, y, z).nearest
+    assert nearest.part == part
+    assert nearest.distance == pytest.approx(distance, abs=1e-6)
 
 
 def test_clearance_inside_the_robot_is_negative():

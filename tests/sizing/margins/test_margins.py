@@ -69,10 +69,9 @@ def about(value, rel=1e-4):
     ],
 )
 def test_demand_and_capacity_by_hand(wheel, name, demand, capacity):
-    found = by_name(turn(), wheel)[name]
-    assert (found.demand, found.capacity) == (demand, capacity)
-    margin = None if capacity is None else found.capacity / found.demand
-    assert found.margin == margin
+    margin = by_name(turn(), wheel)[name]
+    assert (margin.demand, margin.capacity) == (demand, capacity)
+    assert margin.margin == (None if capacity is None else margin.capacity / margin.demand)
 
 
 @pytest.mark.parametrize(

@@ -28,9 +28,9 @@ def test_a_selected_device_passes_within_its_motors_limits(seed):
             device,
             requirement.maneuvers,
             references={
-                name: found.trajectory
-                for name, found in plans.items()
-                if found.trajectory is not None
+                name: planned.trajectory
+                for name, planned in plans.items()
+                if planned.trajectory is not None
             },
         )
     )

@@ -93,7 +93,7 @@ def lightest_mass(problem, device, envelope, stress):
 
     scale = mass(np.array([1.0, device.inner_radius / radius]))
     starts = ([1.0, device.inner_radius / radius], [0.97, 0.8], [0.97, 0.5])
-    found = [
+    solutions = [
         minimize(
             lambda x: mass(x) / scale,
             start,
@@ -103,7 +103,7 @@ def lightest_mass(problem, device, envelope, stress):
         )
         for start in starts
     ]
-    return scale * min(each.fun for each in found if margins(each.x).min() > -1e-9)
+    return scale * min(each.fun for each in solutions if margins(each.x).min() > -1e-9)
 
 
 def allowed_stress(problem, device):
