@@ -29,7 +29,7 @@ def infeasible(reason="the wheels would have to be larger"):
 
 def made_up_device(task):
     """A device that is lighter with more time; infeasible below 0.33 s."""
-    time = sweep_of("time").own(task)
+    time = sweep_of("time").present_value(task)
     if time < 0.33:
         raise infeasible()
     mass = 0.03 / time**2

@@ -14,7 +14,7 @@ from ocs_design.export.electrics import controller_rating
 from ocs_design.report.device import has_motor
 from ocs_design.report.flights import flight_remarks, hand_turn_remark, jump_remark
 from ocs_design.requirement.bound import AXES, authority
-from ocs_design.requirement.vocabulary import DRAWN
+from ocs_design.requirement.vocabulary import SAMPLES_DRAWN
 from ocs_design.sizing.margins import MOTOR_TORQUE
 
 COUPLING_NOTED = 0.02
@@ -55,10 +55,10 @@ def all_warnings(design: OcsDesign) -> Iterator[str]:
                 "an axis that the wheels cannot control at its incidence: specify a larger one or "
                 "none"
             )
-    if reserve is not None and reserve.reliability > 1.0 - 1.0 / DRAWN:
+    if reserve is not None and reserve.reliability > 1.0 - 1.0 / SAMPLES_DRAWN:
         yield (
             f"the reserve for {100.0 * reserve.reliability:.8g} % of robots is set by the worst of "
-            f"{DRAWN:,} samples, which cannot show more: fly more of them with --certify"
+            f"{SAMPLES_DRAWN:,} samples, which cannot show more: fly more of them with --certify"
         )
     # An open point is reported with the verdict.
     said = tuple(point.what for point in design.buildable.open)

@@ -56,8 +56,10 @@ class SpinDemand:
     @property
     def unreachable_axes(self) -> tuple[str, ...]:
         """Names of the axes that need momentum but cannot get any at this incidence."""
-        blind = (self.momentum != 0.0) & (authority(self.incidence) < OUT_OF_REACH)
-        return tuple(axis for axis, is_blind in zip(AXES, blind, strict=True) if is_blind)
+        unreachable = (self.momentum != 0.0) & (authority(self.incidence) < OUT_OF_REACH)
+        return tuple(
+            axis for axis, is_unreachable in zip(AXES, unreachable, strict=True) if is_unreachable
+        )
 
 
 def elroy_beanie_bound(inertia: float, rate_change: float, wheel_speed_max: float) -> float:
@@ -113,7 +115,7 @@ def spin_bound(
     )
 
 
-def turned_roll(roll: ArrayLike, yaw_inertia: ArrayLike) -> FloatArray:
+def roll_momentum_per_rate(roll: ArrayLike, yaw_inertia: ArrayLike) -> FloatArray:
     """Momentum about roll per roll rate at the start of a flip, `I_xx (1 + I_xx / I_zz)`.
 
     The momentum `I_xx p` is fixed in space. After a quarter turn it lies along the trunk's z axis,
@@ -147,7 +149,7 @@ def bound_curve(rate_changes: ArrayLike, wheel_speeds: ArrayLike) -> FloatArray:
     return ratio
 
 
-def per_wheel(both: FloatArray, incidence: float) -> float:
+def per_wheel(total: FloatArray, incidence: float) -> float:
     """Demand on each wheel along its own axis, for roll and pitch of both together.
 
     `(|x| / sin a + |y| / cos a) / 2`, for momenta [N m s] as for torques [N m]: the achievable
@@ -155,14 +157,14 @@ def per_wheel(both: FloatArray, incidence: float) -> float:
     nothing, whatever the incidence; inf if one with demand is out of reach.
 
     Args:
-        both: on roll and on pitch, shape (2,).
+        total: on roll and on pitch, shape (2,).
         incidence: [rad].
     """
-    asked = np.abs(both)
+    magnitudes = np.abs(total)
     share = authority(incidence)
-    if np.any((asked > 0.0) & (share < OUT_OF_REACH)):
+    if np.any((magnitudes > 0.0) & (share < OUT_OF_REACH)):
         return float("inf")
-    return float(np.divide(asked, share, out=np.zeros(2), where=asked > 0.0).sum() / 2.0)
+    return float(np.divide(magnitudes, share, out=np.zeros(2), where=magnitudes > 0.0).sum() / 2.0)
 
 
 def spin_demands(
@@ -183,34 +185,37 @@ def spin_demands(
     def demand(
         source: str,
         momentum: FloatArray,
-        at: float,
+        own_incidence: float,
         torque: FloatArray | None = None,
         initial_speed: float = 0.0,
     ) -> SpinDemand:
         """Demand of a momentum [N m s] and, where a time is set, a least torque [N m]."""
-        left = requirement.wheel_speed_max - initial_speed
-        least = per_wheel(momentum, at) / left if left > 0.0 else float("inf")
-        per_motor = 0.0 if torque is None else per_wheel(torque, at)
-        return SpinDemand(source, at, momentum, least, per_motor)
+        speed_left = requirement.wheel_speed_max - initial_speed
+        spin_inertia = (
+            per_wheel(momentum, own_incidence) / speed_left if speed_left > 0.0 else float("inf")
+        )
+        per_motor = 0.0 if torque is None else per_wheel(torque, own_incidence)
+        return SpinDemand(source, own_incidence, momentum, spin_inertia, per_motor)
 
-    whole, height = TiltInertia.of(total_inertia), requirement.standing_height
-    found = []
+    total, height = TiltInertia.of(total_inertia), requirement.standing_height
+    demands = []
     for maneuver in requirement.maneuvers:
-        at = incidence if maneuver.incidence is None else maneuver.incidence
-        turned = whole.within_reach(authority(at), maneuver.tilt_per_drift)
-        momentum, torque = maneuver.momentum(turned, height), maneuver.least_torque(turned, height)
-        slew = maneuver.slew(turned, height)
+        own_incidence = incidence if maneuver.incidence is None else maneuver.incidence
+        reached = total.within_reach(authority(own_incidence), maneuver.tilt_per_drift)
+        momentum = maneuver.momentum(reached, height)
+        torque = maneuver.least_torque(reached, height)
+        slew = maneuver.slew(reached, height)
         _, pitch = slew.swept if slew.swept.any() else slew.momentum
         # Both wheels of a pair pitch the trunk the same way, but roll it in opposite ways.
         initial_speed = (
             float(np.sign(pitch)) * slew.initial_speed if pitch else abs(slew.initial_speed)
         )
-        found.append(demand(maneuver.name, momentum, at, torque, initial_speed))
+        demands.append(demand(maneuver.name, momentum, own_incidence, torque, initial_speed))
     if requirement.rate_change is not None:
-        momenta = rate_momenta(whole, requirement.rate_change)
+        momenta = rate_momenta(total, requirement.rate_change)
         for axis, momentum in zip(AXES, momenta, strict=True):
-            found.append(demand(f"rate change, {axis}", momentum, incidence))
-    return tuple(found)
+            demands.append(demand(f"rate change, {axis}", momentum, incidence))
+    return tuple(demands)
 
 
 def rate_momenta(inertia: TiltInertia, rate_change: float) -> FloatArray:
@@ -223,5 +228,5 @@ def rate_momenta(inertia: TiltInertia, rate_change: float) -> FloatArray:
     Returns:
         Magnitudes, shape (..., 2, 2): axis of the change, axis of the momentum.
     """
-    each = [inertia.momentum(rate) for rate in np.diag([rate_change, rate_change])]
-    return np.abs(np.stack(each, axis=-2))
+    momenta = [inertia.momentum(rate) for rate in np.diag([rate_change, rate_change])]
+    return np.abs(np.stack(momenta, axis=-2))

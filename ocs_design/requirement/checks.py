@@ -36,7 +36,7 @@ from ocs_design.requirement.vocabulary import (
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.stance import LANDING_TOLERANCE
 
-OF_WEBS = (
+WEB_KEYS = (
     "lightening",
     "chamfer",
     "balancing_holes",
@@ -52,7 +52,7 @@ FEWEST_HOLES, MOST_HOLES = 3, 100
 def contradictions(specification: Specification) -> Iterator[str]:
     """Keys that contradict each other, one line each."""
     flywheel, robot = specification.flywheel, specification.robot
-    yield from _empty_room(flywheel, vars(flywheel))
+    yield from _contradictory_limits(flywheel, vars(flywheel))
     if (robot.mass is None) != (robot.inertia is None):
         yield "robot: give both mass and inertia, or neither"
     if robot.file is not None and robot.mass is not None:
@@ -60,8 +60,8 @@ def contradictions(specification: Specification) -> Iterator[str]:
     if robot.human is not None and (robot.file is not None or robot.mass is not None):
         yield "robot: give either human, or a file, or mass and inertia"
 
-    yield from _without_motor(specification)
-    yield from _of_layouts(specification)
+    yield from _needing_motor(specification)
+    yield from _layout_contradictions(specification)
     holes = flywheel.balancing_holes
     if holes is not None and holes != 0 and not FEWEST_HOLES <= holes <= MOST_HOLES:
         yield f"flywheel.balancing_holes: {holes} is not {FEWEST_HOLES} to {MOST_HOLES}, or 0"
@@ -75,23 +75,23 @@ def contradictions(specification: Specification) -> Iterator[str]:
         )
     if specification.ocs.wheel == RING:
         no_web = "a ring around the motor's bell has no web (ocs.wheel)"
-        yield from _pointless(specification, "flywheel", ("web", "lightening"), no_web)
+        yield from _without_effect(specification, "flywheel", ("web", "lightening"), no_web)
         if specification.motor.gear not in {None, DIRECT.name}:
             yield "motor.gear: a ring turns with the motor's bell, without a gear (ocs.wheel)"
         if specification.ocs.co_design:
             yield "ocs.co_design: changes the bore, but the motor's bell sets it (ocs.wheel)"
     if flywheel.web == NO_WEB:
         spokes = f"has no effect where flywheel.web is {NO_WEB!r}"
-        yield from _pointless(specification, "flywheel", OF_WEBS, spokes)
+        yield from _without_effect(specification, "flywheel", WEB_KEYS, spokes)
 
     if specification.maneuvers and specification.requirement.maneuvers is not None:
         yield "requirement.maneuvers: contradicts the [[maneuver]] tables"
-    yield from _without_gravity(specification)
+    yield from _needing_gravity(specification)
     for maneuver in specification.maneuvers:
         yield from maneuver.contradictions()
 
 
-def _pointless(
+def _without_effect(
     specification: Specification, table: str, keys: Iterable[str], why: str
 ) -> Iterator[str]:
     """Keys of a section that are specified but have no effect, one line each."""
@@ -99,7 +99,9 @@ def _pointless(
     return (f"{table}.{key}: {why}" for key in keys if getattr(section, key) is not None)
 
 
-def _empty_room(specified: FlywheelSection, limits: Mapping[str, float | None]) -> Iterator[str]:
+def _contradictory_limits(
+    specified: FlywheelSection, limits: Mapping[str, float | None]
+) -> Iterator[str]:
     """Limits of a rim, specified or default, that leave no space between them."""
 
     def limit(key: str) -> str:
@@ -115,20 +117,22 @@ def _empty_room(specified: FlywheelSection, limits: Mapping[str, float | None]) 
         yield f"flywheel: {limit('h_max')}, is below {limit('h_min')}"
 
 
-def _without_gravity(specification: Specification) -> Iterator[str]:
+def _needing_gravity(specification: Specification) -> Iterator[str]:
     """Jumps and falls in orbit, and turns without a time, requested in words, one line each."""
-    asked = specification.requirement
-    if asked.gravity == 0.0:
-        falling = [word for word in WORDS if word not in TURNS and getattr(asked, word)]
+    requirement = specification.requirement
+    if requirement.gravity == 0.0:
+        falling = [word for word in WORDS if word not in TURNS and getattr(requirement, word)]
         if specification.takes_default_maneuvers:
             falling.append("maneuvers")
         for word in falling:
             yield f"requirement.{word}: nothing jumps or falls in orbit: use a turn or a catch"
-        if any(each.duration is None for word in TURNS for each in getattr(asked, word) or ()):
+        if any(
+            turn.duration is None for word in TURNS for turn in getattr(requirement, word) or ()
+        ):
             yield "requirement: in orbit a turn needs a time: 'yaw 90deg in 60s'"
 
 
-def _of_layouts(specification: Specification) -> Iterator[str]:
+def _layout_contradictions(specification: Specification) -> Iterator[str]:
     """Faulty axes or positions, and keys of pairs for other layouts, one line each."""
     specified = specification.ocs
     places = 1 if specified.layout in {None, PAIR, ALL_LAYOUTS} else WHEELS[specified.layout]
@@ -164,30 +168,30 @@ def _of_layouts(specification: Specification) -> Iterator[str]:
     )
 
 
-def _without_motor(specification: Specification) -> Iterator[str]:
+def _needing_motor(specification: Specification) -> Iterator[str]:
     """Keys that need a motor although none is wanted, one line each."""
     if specification.motor.name != NO_MOTOR:
         return
     of_motors: Mapping[str, Iterable[str]] = {
         "motor": ("gear", "any", "motors", "with_catalogue", "gears"),
-        "flywheel": OF_WEBS,
+        "flywheel": WEB_KEYS,
         "ocs": ("guard", "wheel"),
         "supply": vars(specification.supply),
     }
     where = f"motor.name is {NO_MOTOR!r}"
     for table, keys in of_motors.items():
-        yield from _pointless(specification, table, keys, f"has no effect where {where}")
-    asked = specification.ocs
+        yield from _without_effect(specification, table, keys, f"has no effect where {where}")
+    ocs = specification.ocs
     needs = {
-        f"ocs.alpha_criterion: {LIGHTEST!r}": asked.alpha_criterion == LIGHTEST,
-        "ocs.lighter_by:": asked.lighter_by is not None,
+        f"ocs.alpha_criterion: {LIGHTEST!r}": ocs.alpha_criterion == LIGHTEST,
+        "ocs.lighter_by:": ocs.lighter_by is not None,
         "requirement.survives:": specification.requirement.notices is not None,
-        "ocs.co_design:": asked.co_design,
+        "ocs.co_design:": ocs.co_design,
     }
     yield from (f"{what} needs a motor, but {where}" for what, holds in needs.items() if holds)
 
 
-def unfit_for_robot(
+def robot_contradictions(
     specification: Specification,
     robot: Robot,
     robot_size: float,
@@ -210,24 +214,25 @@ def unfit_for_robot(
             "the left wheel needs y > 0"
         )
     limits = {key: getattr(envelope, limit) for key, limit in LIMIT_OF_KEY.items()}
-    yield from _empty_room(specification.flywheel, limits)
-    alone = requirement.rate_change is None and requirement.spin_inertia is None
-    if alone and not requirement.maneuvers:
+    yield from _contradictory_limits(specification.flywheel, limits)
+    only_maneuvers = requirement.rate_change is None and requirement.spin_inertia is None
+    if only_maneuvers and not requirement.maneuvers:
         yield "requirement: nothing is required: add a maneuver, rate_change or spin_inertia"
-    for each in requirement.maneuvers:
+    for maneuver in requirement.maneuvers:
         try:
-            each.momentum(TiltInertia.of(robot.inertia), requirement.standing_height)
+            maneuver.momentum(TiltInertia.of(robot.inertia), requirement.standing_height)
         except OcsError as error:
             yield error.sentence
-        own = each.with_wheels(direct=specified.acts_about_vertical)
+        with_wheels = maneuver.with_wheels(direct=specified.acts_about_vertical)
         # One in a list is refused as well: a device has no ratio to a demand of zero.
-        if alone and own.idle:
-            yield f"maneuver.{own.name}: {own.idle}, which requires nothing of the device"
+        if only_maneuvers and with_wheels.zero_demand:
+            zeros = with_wheels.zero_demand
+            yield f"maneuver.{maneuver.name}: {zeros}, which requires nothing of the device"
         tolerance = inf if varied else LANDING_TOLERANCE
-        yield from own.unfit(tilting=specified.tilting, tolerance=tolerance)
+        yield from with_wheels.infeasibilities(tilting=specified.tilting, tolerance=tolerance)
         # Tables were checked before; maneuvers requested in words have their jump only now.
-        yield from own.contradictions()
-    yield from _misfed(specification, robot)
+        yield from with_wheels.contradictions()
+    yield from _implausible_supply(specification, robot)
     chosen = specification.flywheel.material
     try:
         if chosen not in {None, STEEL, AUTO}:
@@ -278,34 +283,36 @@ def _oversized(specification: Specification, robot: Robot, size: float) -> Itera
             )
 
 
-OVERFED = 1.25
+OVERVOLTAGE_MAX = 1.25
 """Ratio to the highest voltage of known motors; above it, the decimal point was misplaced."""
 
-EMPTY_CELL = 3.0
+EMPTY_CELL_VOLTAGE = 3.0
 """Voltage of one empty lithium cell [V]: no robot has a lower supply."""
 
-LEAST_POWER = 1.0
+POWER_PER_MASS_MIN = 1.0
 """Least supply power over the robot's mass [W/kg]: with less, kilowatts were meant."""
 
 
-def _misfed(specification: Specification, robot: Robot) -> Iterator[str]:
+def _implausible_supply(specification: Specification, robot: Robot) -> Iterator[str]:
     """Supply voltage or power that is implausibly high or low, one line each."""
     voltage, power = specification.supply.voltage, specification.supply.power_max
-    most = highest_known_voltage(specification)
-    if voltage is not None and most and voltage > OVERFED * most:
-        meant = next(volts for place in range(1, 9) if (volts := voltage / 10**place) <= most)
+    highest = highest_known_voltage(specification)
+    if voltage is not None and highest and voltage > OVERVOLTAGE_MAX * highest:
+        meant = next(volts for place in range(1, 9) if (volts := voltage / 10**place) <= highest)
         yield (
-            f"supply.voltage: {voltage:g} V, but no known motor takes more than {most:g} V: "
+            f"supply.voltage: {voltage:g} V, but no known motor takes more than {highest:g} V: "
             f"did you mean {meant:g}V?"
         )
-    if voltage is not None and voltage < EMPTY_CELL:
-        meant = next(volts for place in range(1, 99) if (volts := voltage * 10**place) > EMPTY_CELL)
+    if voltage is not None and voltage < EMPTY_CELL_VOLTAGE:
+        meant = next(
+            volts for place in range(1, 99) if (volts := voltage * 10**place) > EMPTY_CELL_VOLTAGE
+        )
         yield (
             f"supply.voltage: {voltage:g} V is less than one empty lithium cell: did you mean "
             f"{meant:g}V?"
         )
-    if power is not None and power < LEAST_POWER * robot.mass:
+    if power is not None and power < POWER_PER_MASS_MIN * robot.mass:
         yield (
-            f"supply.power_max: {power:g} W is less than {LEAST_POWER:g} W per kg of the robot "
-            f"({robot.mass:.3g} kg): did you mean {power:g}kW?"
+            f"supply.power_max: {power:g} W is less than {POWER_PER_MASS_MIN:g} W per kg of the "
+            f"robot ({robot.mass:.3g} kg): did you mean {power:g}kW?"
         )

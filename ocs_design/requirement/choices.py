@@ -69,7 +69,7 @@ def motor_choice(specification: Specification, robot: Robot) -> MotorChoice | No
     offered = _motors(specification, supply.voltage)
     named = specification.flywheel.material or STEEL
     return MotorChoice(
-        motors=tuple(_controlled(each, specification) for each in offered),
+        motors=tuple(_with_controller(each, specification) for each in offered),
         gears=tuple(
             replace(stage, torque_max=min(stage.torque_max, limit))
             for stage in _gears(specification)
@@ -100,14 +100,14 @@ def specified_supply(specification: Specification, robot: Robot) -> Supply:
     )
 
 
-def _controlled(found: Motor, specification: Specification) -> Motor:
+def _with_controller(motor: Motor, specification: Specification) -> Motor:
     """The motor with its controller's mass, specified or estimated from its current."""
     specified = specification.supply.controllers
     if specified == NO_CONTROLLERS:
-        return found
+        return motor
     return replace(
-        found,
-        controller_mass=specified if isinstance(specified, float) else controller_mass_of(found),
+        motor,
+        controller_mass=specified if isinstance(specified, float) else controller_mass_of(motor),
     )
 
 
@@ -159,30 +159,30 @@ def _motors(specification: Specification, voltage: float = 0.0) -> tuple[Motor, 
     file = _path(specified.motors)
     if specified.name not in {None, AUTO, NO_MOTOR}:
         known = known_motors(file)
-        named = dict.fromkeys(names_in(specified.name or ""))
-        if alone := [word for word in (AUTO, NO_MOTOR) if word in named]:
+        names = dict.fromkeys(names_in(specified.name or ""))
+        if keywords := [word for word in (AUTO, NO_MOTOR) if word in names]:
             raise SpecificationError(
-                f"{alone[0]!r} cannot be combined with names of motors",
-                hint=f"Leave out {alone[0]!r}, or the motors.",
+                f"{keywords[0]!r} cannot be combined with names of motors",
+                hint=f"Leave out {keywords[0]!r}, or the motors.",
             )
-        return tuple(motor(name, known) for name in named)
+        return tuple(motor(name, known) for name in names)
     only_own = file is not None and not specified.with_catalogue
-    offered = tuple((load_motors(file) if only_own and file else known_motors(file)).values())
-    if not offered:
+    available = tuple((load_motors(file) if only_own and file else known_motors(file)).values())
+    if not available:
         raise SpecificationError(
             f"{file} has no motors", hint="`ocs-design catalogue motors` shows what a row has"
         )
     if specified.any:
-        return offered
-    complete = tuple(found for found in offered if not build_gaps(found))
+        return available
+    complete = tuple(motor for motor in available if not build_gaps(motor))
     if not complete:
-        lacks = [f"{each.name} lacks {', '.join(build_gaps(each))}" for each in offered]
+        missing = [f"{each.name} lacks {', '.join(build_gaps(each))}" for each in available]
         raise SpecificationError(
-            "every motor lacks data needed to build: " + "; ".join(lacks[:MOST_NAMED]),
+            "every motor lacks data needed to build: " + "; ".join(missing[:MOTORS_NAMED]),
             hint="Fill in the data, name the motor with --motor, or allow incomplete motors with "
             "--motors-any",
         )
-    rated = tuple(found for found in complete if _highest_voltage(found) >= voltage)
+    rated = tuple(motor for motor in complete if _highest_voltage(motor) >= voltage)
     if not rated:
         highest = max(complete, key=_highest_voltage)
         raise SpecificationError(
@@ -193,12 +193,12 @@ def _motors(specification: Specification, voltage: float = 0.0) -> tuple[Motor, 
     return rated
 
 
-def _highest_voltage(found: Motor) -> float:
+def _highest_voltage(motor: Motor) -> float:
     """Highest supply voltage that a motor's maker allows [V]; 0: unknown."""
-    return found.voltage_max or found.rated_voltage or 0.0
+    return motor.voltage_max or motor.rated_voltage or 0.0
 
 
-def doubts_about_motors(specification: Specification) -> tuple[str, ...]:
+def motor_warnings(specification: Specification) -> tuple[str, ...]:
     """Warnings about the figures in the user's file of motors, one sentence each.
 
     Raises:
@@ -214,20 +214,20 @@ def highest_known_voltage(specification: Specification) -> float:
     return max(map(_highest_voltage, known), default=0.0)
 
 
-MOST_NAMED = 3
+MOTORS_NAMED = 3
 """Most motors whose missing data a message lists."""
 
 
 def _gears(specification: Specification) -> tuple[Gear, ...]:
     specified = specification.motor
     known = known_gears(_path(specified.gears))
-    name = specified.gear or gear_where_none_is_stated(specified)
+    name = specified.gear or default_gear(specified)
     if name == DIRECT.name:
         return (DIRECT,)
     return (DIRECT, *stages(known.values())) if name == AUTO else named_stages(name, known)
 
 
-def gear_where_none_is_stated(specified: MotorSection) -> str:
+def default_gear(specified: MotorSection) -> str:
     """Default gear: direct drive, as no row says how a gear and a motor are fixed to each other.
 
     If the user supplies a file of gears, any of them is a candidate.

@@ -156,7 +156,7 @@ class Maneuver(ABC):
         return 0.0
 
     @property
-    def stop(self) -> float:
+    def braking_time(self) -> float:
         """Time in which a brake stops the wheels at the start [s]; inf: none does."""
         return inf
 
@@ -176,7 +176,7 @@ class Maneuver(ABC):
         return np.zeros(2)
 
     @property
-    def headed(self) -> bool:
+    def has_heading_demand(self) -> bool:
         """Whether wheels that reach the vertical turn or stop the trunk about it."""
         return False
 
@@ -276,7 +276,7 @@ class Maneuver(ABC):
         """The maneuver with part of its tilt or push, 0..1."""
         return self.scaled(share, *self.milder_by)
 
-    def calmer(self) -> Self:
+    def with_less_torque(self) -> Self:
         """The maneuver with less torque and more momentum, where it may be made so."""
         return self
 
@@ -297,7 +297,7 @@ class Maneuver(ABC):
                 f"but the flight lasts {max(self.flight_time, 0.0):.3g} s"
             )
 
-    def unfit(self, *, tilting: int, tolerance: float) -> Iterator[str]:
+    def infeasibilities(self, *, tilting: int, tolerance: float) -> Iterator[str]:
         """What these wheels cannot do (`with_wheels`), or no robot can, one line each.
 
         Args:
@@ -308,12 +308,12 @@ class Maneuver(ABC):
         yield from ()
 
     @property
-    def idle(self) -> str:
+    def zero_demand(self) -> str:
         """Keys whose zeros require nothing of roll and pitch; empty: something is required."""
         return ""
 
     @property
-    def upset(self) -> str:
+    def disturbance_text(self) -> str:
         """What feedback alone corrects, as in `pitch 2.1 deg`, where its time matters less."""
         return ""
 

@@ -45,7 +45,7 @@ class Actuation(StrEnum):
     BRAKE = "brake"
 
 
-HELD_ON = 1.5
+HOLD_TIME_RATIO = 1.5
 """Time for which a robot that has stood up or recovered is held upright, relative to the time
 given."""
 
@@ -53,7 +53,7 @@ SPIN_UP = 60.0
 """Time for spinning wheels up to the speed from which a brake stops them [s]."""
 
 
-_INSTANT = 0.02
+_GRAVITY_SHARE_MAX = 0.02
 """Largest share of a climb's momentum that gravity may take while a brake stops its wheels, if that
 is to count as an instant."""
 
@@ -85,18 +85,18 @@ def swing(stiffness: float, inertia: float, tilt: float, rate: float, time: floa
         stiffness: K, weight times lever [N m]. inertia: I about the pivot [kg m^2].
         tilt: theta at the start [rad]. rate: theta' at the start [rad/s]. time: T [s].
     """
-    quickness = sqrt(stiffness / inertia)
-    x, y = tilt + rate / quickness, tilt - rate / quickness
+    growth_rate = sqrt(stiffness / inertia)
+    x, y = tilt + rate / growth_rate, tilt - rate / growth_rate
     if x < 0.0:
         x, y = -x, -y
     if x == 0.0:
         return Swing(0.0, 0.0)
-    end = exp(quickness * time)
-    middle = y * (1.0 + 1.0 / end) - x * (1.0 + end)
-    turned = (sqrt(max(middle**2 + 16.0 * x * y, 0.0)) - middle) / (4.0 * x)
-    turned = min(max(turned, 1.0), end)
-    asked = hypot(1.0 - 2.0 / turned + 1.0 / end, 1.0 - 2.0 * turned + end)
-    return Swing(stiffness * hypot(x, y) / asked, log(turned) / quickness)
+    end = exp(growth_rate * time)
+    linear = y * (1.0 + 1.0 / end) - x * (1.0 + end)
+    growth_to_switch = (sqrt(max(linear**2 + 16.0 * x * y, 0.0)) - linear) / (4.0 * x)
+    growth_to_switch = min(max(growth_to_switch, 1.0), end)
+    scale = hypot(1.0 - 2.0 / growth_to_switch + 1.0 / end, 1.0 - 2.0 * growth_to_switch + end)
+    return Swing(stiffness * hypot(x, y) / scale, log(growth_to_switch) / growth_rate)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -114,7 +114,7 @@ class Pivoted(Maneuver):
         wheel_speed: of all wheels at the start [rad/s].
         end: see `End`; not `at rest`, as a robot that is not upright cannot stay at rest.
         stretch: factor on the longest time of the estimate; a larger one needs less torque and more
-            momentum (`StandUp.calmer`).
+            momentum (`StandUp.with_less_torque`).
         body: the robot, in B; None: not known yet (`on`).
     """
 
@@ -168,8 +168,8 @@ class Pivoted(Maneuver):
 
     def freedom(self, body: MassProperties) -> Freedom:
         """Freedom to turn about the pivot, under gravity."""
-        own = self.on(body)
-        return Freedom(own.inertia, own.gravity_moment, own.axis)
+        on_body = self.on(body)
+        return Freedom(on_body.inertia, on_body.gravity_moment, on_body.axis)
 
     @property
     def momentum_of_body(self) -> FloatArray | None:
@@ -187,13 +187,13 @@ class Pivoted(Maneuver):
         Raises:
             SpecificationError: its centre of mass is not above the pivot.
         """
-        own = replace(self, body=body)
+        on_body = replace(self, body=body)
         if any(self.edge) and not any(self.edge[:2]):
             raise SpecificationError(
                 f"maneuver {self.name!r}: its edge is vertical: the robot cannot stand up about it",
                 hint="Write an edge in the level plane, as 'along left' or 'along forward'.",
             )
-        height = float(own.lever[2])
+        height = float(on_body.lever[2])
         if height <= 0.0:
             raise SpecificationError(
                 f"maneuver {self.name!r}: the pivot is {format_quantity(-height, 'mm')} above the "
@@ -201,10 +201,10 @@ class Pivoted(Maneuver):
                 hint=f"The centre of mass is at z = {format_quantity(body.com[2], 'mm')} in the "
                 f"trunk's frame: put the pivot below it.",
             )
-        return own
+        return on_body
 
     @property
-    def _stands(self) -> MassProperties:
+    def _known_body(self) -> MassProperties:
         """The body, once it is known."""
         assert self.body is not None, "the body is not known yet"
         return self.body
@@ -212,7 +212,7 @@ class Pivoted(Maneuver):
     @property
     def lever(self) -> FloatArray:
         """Vector from the pivot to the centre of mass in B, across the edge [m], shape (3,)."""
-        lever, axis = self._stands.com - np.array(self.pivot), self.axis
+        lever, axis = self._known_body.com - np.array(self.pivot), self.axis
         return np.asarray(lever if axis is None else lever - axis * (axis @ lever))
 
     @property
@@ -224,28 +224,28 @@ class Pivoted(Maneuver):
     @property
     def inertia(self) -> FloatArray:
         """Inertia about the pivot in B, wheels braked [kg m^2], shape (3, 3)."""
-        return self._stands.inertia_about(np.array(self.pivot))
+        return self._known_body.inertia_about(np.array(self.pivot))
 
     def turned(self, inertia: TiltInertia) -> TiltInertia:
         """Inertia about the pivot, from that about the centre of mass: parallel axes."""
-        mass, (x, y, z) = self._stands.mass, self._stands.com - np.array(self.pivot)
-        further = mass * np.array([y * y + z * z, x * x + z * z])
-        return TiltInertia(inertia.diagonal + further, inertia.product - mass * x * y)
+        mass, (x, y, z) = self._known_body.mass, self._known_body.com - np.array(self.pivot)
+        parallel_axis = mass * np.array([y * y + z * z, x * x + z * z])
+        return TiltInertia(inertia.diagonal + parallel_axis, inertia.product - mass * x * y)
 
     @property
     def gravity_moment(self) -> FloatArray:
         """Weight times lever, m g l in B [N m], shape (3,)."""
-        return np.asarray(self._stands.mass * self.gravity * self.lever)
+        return np.asarray(self._known_body.mass * self.gravity * self.lever)
 
     @property
-    def struck(self) -> FloatArray:
+    def rate_after_disturbance(self) -> FloatArray:
         """Rate that a disturbance leaves, in B [rad/s], shape (3,)."""
         return np.zeros(3)
 
     @property
     def initial_rate(self) -> FloatArray:
         """Rate at the start, in B [rad/s], shape (3,)."""
-        return self.struck
+        return self.rate_after_disturbance
 
     @property
     def tilt(self) -> FloatArray:
@@ -267,19 +267,19 @@ class Pivoted(Maneuver):
         The stiffness K is that of the linear pendulum with the energy of the true one at the tilt:
         `K theta^2 / 2 = m g l (1 - cos theta)`.
         """
-        weight, rate = float(np.linalg.norm(self.gravity_moment)), self.struck
-        about = self.axis
-        if about is None:
-            most = float(np.linalg.eigvalsh(self.inertia)[-1])
-            about = (self.tilt + rate * sqrt(most / weight)) * np.array([1.0, 1.0, 0.0])
-            length = float(np.linalg.norm(about))
-            about = about / length if length > 0.0 else np.array([0.0, 1.0, 0.0])
-        inertia, tilt = float(about @ self.inertia @ about), float(about @ self.tilt)
-        softer = 2.0 * (1.0 - cos(tilt)) / tilt**2 if abs(tilt) > _STRAIGHT else 1.0
-        return about, inertia, softer * weight, tilt, float(about @ rate)
+        weight, rate = float(np.linalg.norm(self.gravity_moment)), self.rate_after_disturbance
+        axis = self.axis
+        if axis is None:
+            largest = float(np.linalg.eigvalsh(self.inertia)[-1])
+            axis = (self.tilt + rate * sqrt(largest / weight)) * np.array([1.0, 1.0, 0.0])
+            length = float(np.linalg.norm(axis))
+            axis = axis / length if length > 0.0 else np.array([0.0, 1.0, 0.0])
+        inertia, tilt = float(axis @ self.inertia @ axis), float(axis @ self.tilt)
+        stiffness_ratio = 2.0 * (1.0 - cos(tilt)) / tilt**2 if abs(tilt) > _SMALL_TILT else 1.0
+        return axis, inertia, stiffness_ratio * weight, tilt, float(axis @ rate)
 
     @property
-    def quickness(self) -> float:
+    def growth_rate(self) -> float:
         """Rate at which a small tilt grows, sqrt(m g l / I) [1/s]."""
         _, inertia, _, _, _ = self._pendulum
         return sqrt(float(np.linalg.norm(self.gravity_moment)) / inertia)
@@ -290,13 +290,13 @@ class Pivoted(Maneuver):
         axis = np.copysign(1.0, tilt + rate * sqrt(inertia / stiffness)) * axis
         longest = self.stretch * self._longest / sqrt(stiffness / inertia)
         time = min(self.duration, longest)
-        found = swing(stiffness, inertia, tilt, rate, time)
-        return axis[:2], Swing(self.estimate * found.torque, found.switch)
+        linear_swing = swing(stiffness, inertia, tilt, rate, time)
+        return axis[:2], Swing(self.estimate * linear_swing.torque, linear_swing.switch)
 
     _longest: ClassVar[float] = 3.0
     """Longest time used in the estimate, over the e-folding time of a tilt."""
 
-    def unfit(self, *, tilting: int, tolerance: float) -> Iterator[str]:
+    def infeasibilities(self, *, tilting: int, tolerance: float) -> Iterator[str]:
         """What the pivot or these wheels do not allow, one line each."""
         del tolerance
         where, axis = f"maneuver.{self.name}", self.axis
@@ -314,10 +314,10 @@ class Pivoted(Maneuver):
                     "wheels"
                 )
             return
-        if abs(axis[2]) > _LEVEL:
+        if abs(axis[2]) > _DIRECTION_TOLERANCE:
             yield f"{where}.edge: must be level in the trunk's frame, so its z must be 0"
-        if tilt and abs(abs(self.tilt @ axis) - tilt) > _LEVEL:
-            along = ", ".join(f"{each:.3g}" for each in axis)
+        if tilt and abs(abs(self.tilt @ axis) - tilt) > _DIRECTION_TOLERANCE:
+            along = ", ".join(f"{component:.3g}" for component in axis)
             yield (
                 f"{where}: roll and pitch tilt it about an axis other than the edge, which is "
                 f"along ({along}): it can turn about its edge only"
@@ -326,14 +326,14 @@ class Pivoted(Maneuver):
     def momentum(self, inertia: TiltInertia, standing_height: float) -> FloatArray:
         """Momentum of the wheels when the torque changes its sign."""
         del inertia, standing_height
-        axis, found = self._swing()
-        return np.abs(axis) * found.torque * found.switch
+        axis, linear_swing = self._swing()
+        return np.abs(axis) * linear_swing.torque * linear_swing.switch
 
     def least_torque(self, inertia: TiltInertia, standing_height: float) -> FloatArray:
         """Least torque that does it in time, for the linear pendulum [N m], shape (2,)."""
         del inertia, standing_height
-        axis, found = self._swing()
-        return np.abs(axis) * found.torque
+        axis, linear_swing = self._swing()
+        return np.abs(axis) * linear_swing.torque
 
     def slew(self, inertia: TiltInertia, standing_height: float) -> Slew:
         """A turn from rest to rest without gravity, with the same torque and largest momentum.
@@ -341,10 +341,12 @@ class Pivoted(Maneuver):
         A torque tau, and then -tau, for T_1 each turns an inertia I by tau T_1^2 / I.
         """
         del standing_height
-        axis, found = self._swing()
+        axis, linear_swing = self._swing()
         shape = np.shape(inertia.diagonal)
-        swept = np.broadcast_to(axis * found.torque * found.switch**2, shape)
-        return Slew(swept, np.zeros(shape), 2.0 * found.switch, self.wheel_speed, one_way=True)
+        swept = np.broadcast_to(axis * linear_swing.torque * linear_swing.switch**2, shape)
+        return Slew(
+            swept, np.zeros(shape), 2.0 * linear_swing.switch, self.wheel_speed, one_way=True
+        )
 
     @property
     def _place(self) -> str:
@@ -353,15 +355,15 @@ class Pivoted(Maneuver):
         on = f"stands on a point at {point} mm"
         if self.axis is not None:
             on = f"stands on an edge at {point} mm along {row_text(self.axis)}"
-        tilted = angles_text(roll=self.roll, pitch=self.pitch) or "upright"
-        spun = f" with wheels at {rpm(self.wheel_speed)}"
-        return f"{on}, {tilted}{spun if self.wheel_speed else ''}"
+        tilt = angles_text(roll=self.roll, pitch=self.pitch) or "upright"
+        with_wheels = f" with wheels at {rpm(self.wheel_speed)}"
+        return f"{on}, {tilt}{with_wheels if self.wheel_speed else ''}"
 
 
-_STRAIGHT = 1e-6
+_SMALL_TILT = 1e-6
 """Tilt below which a pendulum counts as linear [rad]."""
 
-_LEVEL = 1e-6
+_DIRECTION_TOLERANCE = 1e-6
 """Tolerance of a direction's components, for rounding."""
 
 
@@ -383,20 +385,20 @@ class Balance(Pivoted):
     milder_by: ClassVar[tuple[str, ...]] = ("roll", "pitch", "rate", "impulse")
 
     @property
-    def struck(self) -> FloatArray:
+    def rate_after_disturbance(self) -> FloatArray:
         """The specified rate plus that of the impulse, in B [rad/s], shape (3,)."""
         turned = np.cross(np.subtract(self.point, self.pivot), self.impulse)
         return np.asarray(np.array(self.rate) + self.mobility @ turned)
 
     @property
-    def idle(self) -> str:
+    def zero_demand(self) -> str:
         """Tilt, rate and impulse, if all are zero."""
-        if any((*self.tilt, *self.struck[:2])):
+        if any((*self.tilt, *self.rate_after_disturbance[:2])):
             return ""
         return "tilt, rate and impulse about roll and pitch are 0"
 
     @property
-    def upset(self) -> str:
+    def disturbance_text(self) -> str:
         """Tilt, rate and impulse, as in `pitch 2.1 deg and an impulse of (0, 0.2, 0) N s`."""
         angles = {"roll": self.roll, "pitch": self.pitch}
         upsets = [f"{name} {format_quantity(a, 'deg')}" for name, a in angles.items() if a]
@@ -409,12 +411,14 @@ class Balance(Pivoted):
     @property
     def summary(self) -> str:
         """Pivot, tilt, rate and impulse."""
-        hit = ""
+        disturbance = ""
         if any(self.rate):
-            hit += f", turning at {rates_text(self.rate)}"
+            disturbance += f", turning at {rates_text(self.rate)}"
         if any(self.impulse):
-            hit += f", hit by {row_text(self.impulse)} N s at {row_text(self.point, 1e3)} mm"
-        return f"{self._place}{hit}; upright and at rest after {self.duration:.3g} s"
+            disturbance += (
+                f", hit by {row_text(self.impulse)} N s at {row_text(self.point, 1e3)} mm"
+            )
+        return f"{self._place}{disturbance}; upright and at rest after {self.duration:.3g} s"
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -435,12 +439,12 @@ class StandUp(Pivoted):
     milder_by: ClassVar[tuple[str, ...]] = ("roll", "pitch")
     reducible: ClassVar[str] = "tilt"
 
-    def calmer(self) -> Self:
+    def with_less_torque(self) -> Self:
         """This climb with nearly the least torque, for motors that have no more; once only."""
         return replace(self, stretch=4.0 / self._longest) if self.stretch == 1.0 else self
 
     @property
-    def idle(self) -> str:
+    def zero_demand(self) -> str:
         """Roll and pitch, if they are zero."""
         return "" if self.roll or self.pitch else "roll and pitch are 0"
 
@@ -466,13 +470,13 @@ class StandUp(Pivoted):
         return np.asarray(self.mobility @ self._climb) if self.braked else np.zeros(3)
 
     @property
-    def stop(self) -> float:
+    def braking_time(self) -> float:
         """Time in which a brake stops the wheels [s]; inf: by the motor.
 
         Meanwhile gravity takes m g l t sin theta of the momentum sqrt(m g l I) theta, about kappa t
-        of it, where kappa is `quickness`. For the Cubli's wheels (`_climb`) this gives 2.1 ms.
+        of it, where kappa is `growth_rate`. For the Cubli's wheels (`_climb`) this gives 2.1 ms.
         """
-        return _INSTANT / self.quickness if self.braked else inf
+        return _GRAVITY_SHARE_MAX / self.growth_rate if self.braked else inf
 
     def momentum(self, inertia: TiltInertia, standing_height: float) -> FloatArray:
         """Momentum of the wheels before braking, or when the torque changes its sign."""
@@ -491,8 +495,8 @@ class StandUp(Pivoted):
         if not self.braked:
             return super().slew(inertia, standing_height)
         shape = np.shape(inertia.diagonal)
-        held = np.broadcast_to(self.estimate * self._climb[:2], shape)
-        return Slew(np.zeros(shape), held, SPIN_UP)
+        momentum = np.broadcast_to(self.estimate * self._climb[:2], shape)
+        return Slew(np.zeros(shape), momentum, SPIN_UP)
 
     @property
     def summary(self) -> str:

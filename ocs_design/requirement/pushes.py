@@ -98,7 +98,7 @@ class Unforeseen(Maneuver):
         )
 
     @property
-    def idle(self) -> str:
+    def zero_demand(self) -> str:
         """Words for a torque without roll and pitch; empty: it has one of them."""
         return "" if any(self.torque[:2]) else "torque about roll and pitch is 0"
 

@@ -20,7 +20,7 @@ class ManeuverReserve:
         rate: initial roll and pitch rates of the trunk to allow for [rad/s].
         demand_with_rate: factor on the demand that includes this rate; below 1 where the margin is
             ample.
-        roll: roll rate at lift-off that a flip must cancel [rad/s], see `turned_roll`.
+        roll: roll rate at lift-off that a flip must cancel [rad/s], see `roll_momentum_per_rate`.
         short: whether a device without this reserve falls short of it.
     """
 

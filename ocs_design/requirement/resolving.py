@@ -17,13 +17,13 @@ from ocs_design.common.units import (
     si_unit,
     to_unit,
 )
-from ocs_design.requirement.checks import contradictions, unfit_for_robot
+from ocs_design.requirement.checks import contradictions, robot_contradictions
 from ocs_design.requirement.choices import (
     POWER_PER_MASS,
     MotorChoice,
     default_supply,
-    doubts_about_motors,
     motor_choice,
+    motor_warnings,
 )
 from ocs_design.requirement.device_sections import (
     LIMIT_OF_KEY,
@@ -174,7 +174,7 @@ def read_specified_robot(
             f"{weighed:.4g} kg: {wrong} in its file"
         )
         robot = replace(robot, warnings=(*robot.warnings, warning))
-    robot = replace(robot, warnings=(*robot.warnings, *doubts_about_motors(specification)))
+    robot = replace(robot, warnings=(*robot.warnings, *motor_warnings(specification)))
     if strict and robot.warnings:
         raise RobotError(
             "--strict: " + "; ".join(robot.warnings), hint="fix the files of robot and motors"
@@ -408,7 +408,7 @@ def resolve(
         detection=asked.notices,
     ).on(robot.mass_properties)
     faults = tuple(
-        unfit_for_robot(specification, robot, robot_size, requirement, envelope, varied=varied)
+        robot_contradictions(specification, robot, robot_size, requirement, envelope, varied=varied)
     )
     if faults:
         raise SpecificationError(f"the specification does not fit {robot.name}:", problems=faults)

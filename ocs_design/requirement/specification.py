@@ -52,7 +52,7 @@ class Specification:
         return nothing or asked.maneuvers is not None
 
     @property
-    def asks_nothing(self) -> bool:
+    def maneuvers_are_defaults(self) -> bool:
         """Whether the paper's three maneuvers apply by default only."""
         return self.takes_default_maneuvers and self.requirement.maneuvers is None
 

@@ -51,8 +51,8 @@ class Task:
             SpecificationError: see `resolve`.
         """
         resolved = resolve(specification, self.robot, self.robot_size, varied=True)
-        before = self.specification
-        if (before.requirement, before.maneuvers) == (
+        present = self.specification
+        if (present.requirement, present.maneuvers) == (
             specification.requirement,
             specification.maneuvers,
         ):
@@ -60,7 +60,7 @@ class Task:
             resolved = replace(resolved, requirement=self.resolved.requirement)
         return replace(self, specification=specification, resolved=resolved)
 
-    def asking(self, requirement: Requirement) -> "Task":
+    def with_requirement(self, requirement: Requirement) -> "Task":
         """Task for the same robot and specification, with another requirement."""
         return replace(self, resolved=replace(self.resolved, requirement=requirement))
 
@@ -94,7 +94,7 @@ class Task:
         return self.resolved.requirement.standing_height
 
 
-FEWEST, MOST = 2, 200
+POINTS_MIN, POINTS_MAX = 2, 200
 """Fewest and most points of a front."""
 
 
@@ -115,7 +115,7 @@ class Sweep(ABC):
     span: tuple[float, float]
 
     @abstractmethod
-    def own(self, task: Task) -> float:
+    def present_value(self, task: Task) -> float:
         """The specification's own value [SI].
 
         Raises:
@@ -144,10 +144,10 @@ class Sweep(ABC):
         Raises:
             QuantityError, UsageError: they cannot be parsed, or form no range.
         """
-        if not FEWEST <= points <= MOST:
-            raise UsageError(f"--points {points}: must lie between {FEWEST} and {MOST}")
+        if not POINTS_MIN <= points <= POINTS_MAX:
+            raise UsageError(f"--points {points}: must lie between {POINTS_MIN} and {POINTS_MAX}")
         start, end = (
-            factor * self.own(task)
+            factor * self.present_value(task)
             if text is None
             else parse_positive(text, self.dimension, option)
             for factor, text, option in zip(self.span, (low, high), ("--from", "--to"), strict=True)
@@ -178,8 +178,8 @@ class KeySweep(Sweep):
     key: str
     value: Callable[[Task], float]
 
-    def own(self, task: Task) -> float:
-        """Value that the specification has (`Sweep.own`)."""
+    def present_value(self, task: Task) -> float:
+        """Value that the specification has (`Sweep.present_value`)."""
         return self.value(task)
 
     def at(self, value: float, task: Task) -> Specification:
@@ -202,11 +202,11 @@ class ManeuverSweep(Sweep):
     scaled: Callable[[Maneuver, float, float], Maneuver]
     maneuver: str = ""
 
-    def own(self, task: Task) -> float:
-        """Value that the specification has (`Sweep.own`)."""
-        found = self._figures(task)
-        if found:
-            return next(iter(found.values()))
+    def present_value(self, task: Task) -> float:
+        """Value that the specification has (`Sweep.present_value`)."""
+        figures = self._figures(task)
+        if figures:
+            return next(iter(figures.values()))
         names = [item.name for item in task.maneuvers]
         if self.maneuver and self.maneuver not in names:
             raise UsageError(
@@ -220,7 +220,7 @@ class ManeuverSweep(Sweep):
 
     def at(self, value: float, task: Task) -> Specification:
         """Specification at another value (`Sweep.at`)."""
-        ratio, height = value / self.own(task), task.standing_height
+        ratio, height = value / self.present_value(task), task.standing_height
         return task.with_maneuvers(
             lambda maneuver: self.scaled(maneuver, ratio, height), self._figures(task)
         )
@@ -228,13 +228,13 @@ class ManeuverSweep(Sweep):
     def remarks(self, task: Task) -> tuple[str, ...]:
         """Sentences on which maneuver gives the value, which vary with it and which do not."""
         first, *others = self._figures(task)
-        kept = [
+        unchanged = [
             maneuver.name for maneuver in task.maneuvers if maneuver.name not in (first, *others)
         ]
         return (
             f"The {self.name} is that of {first!r}.",
             *([f"Varied in proportion: {', '.join(others)}."] if others else []),
-            *([f"Not varied: {', '.join(kept)}."] if kept else []),
+            *([f"Not varied: {', '.join(unchanged)}."] if unchanged else []),
         )
 
     def _figures(self, task: Task) -> Mapping[str, float]:

@@ -108,7 +108,7 @@ class Drop(Reorientation):
         return replace(self, height=standing_height + fall)
 
     @property
-    def idle(self) -> str:
+    def zero_demand(self) -> str:
         """Roll and pitch, if they are zero."""
         return "" if self.roll or self.pitch else "roll and pitch are 0"
 
@@ -207,21 +207,21 @@ class Flip(TimedTurn):
         return np.array([0.0, self.angle])
 
     @property
-    def idle(self) -> str:
+    def zero_demand(self) -> str:
         """Angle, if it is zero."""
         return "" if self.angle else "angle is 0"
 
-    def unfit(self, *, tilting: int, tolerance: float) -> Iterator[str]:
+    def infeasibilities(self, *, tilting: int, tolerance: float) -> Iterator[str]:
         """A turn that is not whole, in one line."""
         del tilting
         left_over = abs(remainder(self.angle, 2.0 * pi))
         if left_over > tolerance:
-            asked = format_quantity(self.angle, "deg")
+            angle_text = format_quantity(self.angle, "deg")
             yield (
-                f"maneuver.{self.name}: after {asked} the trunk is "
+                f"maneuver.{self.name}: after {angle_text} the trunk is "
                 f"{format_quantity(left_over, 'deg')} off level, but a flip must land level: ask "
                 "for 360deg (back, forward). If this attitude at touchdown is meant, ask for a "
-                f"turn to it: 'pitch {asked.replace(' ', '')} in {self.duration:.3g}s'"
+                f"turn to it: 'pitch {angle_text.replace(' ', '')} in {self.duration:.3g}s'"
             )
 
     @property
@@ -236,7 +236,7 @@ class Flip(TimedTurn):
 LOOP_SHARE = 0.75
 """Fraction of the tilt loop that wheels and motors are sized for, in that fraction of its time."""
 
-_RateAtStart: TypeAlias = Annotated[Rate, "rate of the trunk at lift-off, about its x, y and z"]
+_InitialRate: TypeAlias = Annotated[Rate, "rate of the trunk at lift-off, about its x, y and z"]
 _End: TypeAlias = Annotated[
     str, Choice(tuple(End)), "required end: level, attitude (with its heading) or at rest"
 ]
@@ -279,7 +279,7 @@ class TurnTo(TimedTurn):
     pitch: Annotated[_Turn, "pitch at the end"] = 0.0
     yaw: Annotated[float, YAW, "yaw at the end"] = 0.0
     duration: _TurnTime
-    rate: _RateAtStart = (0.0, 0.0, 0.0)
+    rate: _InitialRate = (0.0, 0.0, 0.0)
     wheel_speed: Annotated[Spin, "speed of all wheels at lift-off"] = 0.0
     end: _End = End.ATTITUDE
     direct: bool = False
@@ -333,22 +333,22 @@ class TurnTo(TimedTurn):
             yield from self._landing_before("its turn", self.duration)
 
     @property
-    def idle(self) -> str:
+    def zero_demand(self) -> str:
         """Attitude and rates, if all that these wheels act about are zero."""
-        if self.headed or any((self.roll, self.pitch, self.yaw, *self.rate[:2])):
+        if self.has_heading_demand or any((self.roll, self.pitch, self.yaw, *self.rate[:2])):
             return ""
         return "roll, pitch and yaw, and the rates about roll and pitch are 0"
 
     @property
-    def headed(self) -> bool:
+    def has_heading_demand(self) -> bool:
         """Whether a change of heading is required and the wheels can act about the vertical."""
         return self.direct and (bool(self.yaw) or bool(self.rate[2]))
 
     def heading(self, inertia: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Demand of the turn in yaw and of the yaw rate at lift-off; see `Maneuver.heading`."""
-        asked = self.estimate * inertia
-        turned = self.yaw if self.end == End.ATTITUDE else 0.0
-        return asked * turned, asked * self.rate[2]
+        estimated = self.estimate * inertia
+        yaw = self.yaw if self.end == End.ATTITUDE else 0.0
+        return estimated * yaw, estimated * self.rate[2]
 
     @property
     def turn(self) -> FloatArray:
@@ -416,10 +416,10 @@ class Catch(TurnTo):
 
     roll: Annotated[_Turn, "roll at the end, where end is attitude"] = 0.0
     duration: Annotated[Time, "time from lift-off to rest"]
-    rate: _RateAtStart
+    rate: _InitialRate
     end: _End = End.LEVEL
 
-    def unfit(self, *, tilting: int, tolerance: float) -> Iterator[str]:
+    def infeasibilities(self, *, tilting: int, tolerance: float) -> Iterator[str]:
         """A yaw rate that the wheels cannot stop, in one line."""
         del tilting, tolerance
         if self.rate[2] and not self.direct:

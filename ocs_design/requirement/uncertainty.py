@@ -24,11 +24,11 @@ from ocs_design.common.units import STANDARD_GRAVITY, Dimension, format_quantity
 from ocs_design.requirement.keys import Faults, keyed, keys_of
 from ocs_design.requirement.values import Quantity, Text
 
-CUT = 3.0
+TRUNCATION = 3.0
 """Standard deviations at which a normal distribution is cut off: no part is off by ten."""
 
 _STANDARD = NormalDist()
-_TAIL = _STANDARD.cdf(-CUT)
+_TAIL = _STANDARD.cdf(-TRUNCATION)
 
 
 @dataclass(frozen=True)
@@ -78,7 +78,7 @@ class Uniform(Distribution):
 
 @dataclass(frozen=True)
 class Normal(Distribution):
-    """Normal distribution, cut off at `CUT` standard deviations."""
+    """Normal distribution, cut off at `TRUNCATION` standard deviations."""
 
     mean: float
     deviation: float
@@ -144,16 +144,16 @@ class Spread:
         return found
 
 
-_MOST_OFF = 0.9
+_RELATIVE_MAX = 0.9
 """Largest relative error; a larger one could leave nothing of a mass or a motor."""
 
-_MOST_ASKEW = pi / 4
+_ANGLE_MAX = pi / 4
 """Largest misalignment of a mount or a sensor [rad]; more was meant in degrees."""
 
-_RELATIVE = Spread(Dimension.RATIO, "%", -_MOST_OFF, _MOST_OFF)
-_ANGLE = Spread(Dimension.ANGLE, "deg", -_MOST_ASKEW, _MOST_ASKEW)
+_RELATIVE = Spread(Dimension.RATIO, "%", -_RELATIVE_MAX, _RELATIVE_MAX)
+_ANGLE = Spread(Dimension.ANGLE, "deg", -_ANGLE_MAX, _ANGLE_MAX)
 _RATE = Spread(Dimension.ANGULAR_SPEED, "deg/s")
-_ANGLE_SPREAD = Spread(Dimension.ANGLE, "deg", 0.0, _MOST_ASKEW)
+_ANGLE_SPREAD = Spread(Dimension.ANGLE, "deg", 0.0, _ANGLE_MAX)
 _RATE_SPREAD = Spread(Dimension.ANGULAR_SPEED, "deg/s", 0.0)
 
 

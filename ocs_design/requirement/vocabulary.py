@@ -74,7 +74,7 @@ BALANCING_DIAMETER, BALANCING_DEPTH = 1.6e-3, 1.0e-3
 RELIABILITY = 0.99
 """Default share of robots that must pass."""
 
-DRAWN = 2048
+SAMPLES_DRAWN = 2048
 """Number of robots sampled to compute a reserve, stratified in each quantity (Latin hypercube)."""
 
 NONE_STOPS, ONE_STOPS = "none", "any one motor"

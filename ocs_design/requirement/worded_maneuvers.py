@@ -30,26 +30,29 @@ class Worded:
     notes: tuple[str, ...]
 
 
-def worded_maneuvers(asked: RequirementSection, robot: Robot, taken: Iterable[str] = ()) -> Worded:
+def worded_maneuvers(
+    requirement: RequirementSection, robot: Robot, other_names: Iterable[str] = ()
+) -> Worded:
     """Maneuvers requested by keys of their own, such as `kick` and `fall`.
 
     Each kick is combined with each jump, each flip with each jump, each fall with each tilt;
     unspecified figures are those of the paper's tests, scaled to the robot.
 
     Args:
-        asked: the section with these keys.
+        requirement: the section with these keys.
         robot: to scale to.
-        taken: names of other maneuvers; the new names differ from them, and so do their files.
+        other_names: names of other maneuvers; the new names differ from them, and so do their
+            files.
 
     Raises:
         SpecificationError: the robot lacks the link that a kick hits; or a pivot is missing, or
             given but not used.
     """
-    gravity = STANDARD_GRAVITY if asked.gravity is None else asked.gravity
+    gravity = STANDARD_GRAVITY if requirement.gravity is None else requirement.gravity
     disturbance, drop, back_flip = default_maneuvers(robot, gravity or STANDARD_GRAVITY)
     maneuvers: list[Maneuver] = []
     notes: list[str] = []
-    files = {comparable_name(name) for name in taken}
+    files = {comparable_name(name) for name in other_names}
 
     def add(maneuver: Maneuver, note: str, text: str = "") -> None:
         """Add a maneuver with a note on it; if its name is taken, it gets a number."""
@@ -61,76 +64,81 @@ def worded_maneuvers(asked: RequirementSection, robot: Robot, taken: Iterable[st
         notes.append(f"{name}: {text or maneuver.summary}{note}.")
 
     highest = disturbance.takeoff_velocity[1] ** 2 / (2.0 * disturbance.gravity)
-    for height in asked.jump_height or (highest,):
+    for height in requirement.jump_height or (highest,):
         # A vertical jump with the torque of the paper's first test, at the same part of the flight.
         upward = sqrt(2.0 * disturbance.gravity * height)
-        longer = upward / disturbance.takeoff_velocity[1]
+        time_ratio = upward / disturbance.takeoff_velocity[1]
         roll, pitch, yaw = disturbance.torque
         jump = replace(
             disturbance,
             name="jump",
             takeoff_velocity=(0.0, upward),
-            torque=(roll / longer, pitch / longer, yaw / longer),
-            onset=longer * disturbance.onset,
-            duration=longer * disturbance.duration,
+            torque=(roll / time_ratio, pitch / time_ratio, yaw / time_ratio),
+            onset=time_ratio * disturbance.onset,
+            duration=time_ratio * disturbance.duration,
         )
-        assumed = " (the paper's, scaled)" if asked.jump_height is None else ""
-        of_jump = f", in a vertical jump of {height:.3g} m{assumed}"
-        for kick in asked.kick or ():
+        assumption = " (the paper's, scaled)" if requirement.jump_height is None else ""
+        of_jump = f", in a vertical jump of {height:.3g} m{assumption}"
+        for kick in requirement.kick or ():
             kicked, text = _kicked(kick, jump, robot)
             add(kicked, of_jump, text)
-        if asked.jump_height and not any((asked.kick, asked.flip, asked.turn, asked.catch)):
+        if requirement.jump_height and not any(
+            (requirement.kick, requirement.flip, requirement.turn, requirement.catch)
+        ):
             add(jump, f"{of_jump}; the torque is that of the paper's first test, scaled")
     share = back_flip.duration / back_flip.flight_time
     heights = back_flip.jump_height, highest
-    turns = ((turn, "") for turn in _turns(asked, gravity, share, heights))
-    for each, note in chain(turns, _pivoted(asked, gravity, robot)):
-        add(each, note)
-    for height in asked.jump_height or (back_flip.jump_height,):
-        for angle in asked.flip or ():
+    turns = ((turn, "") for turn in _turns(requirement, gravity, share, heights))
+    for maneuver, note in chain(turns, _pivoted(requirement, gravity, robot)):
+        add(maneuver, note)
+    for height in requirement.jump_height or (back_flip.jump_height,):
+        for angle in requirement.flip or ():
             flip = replace(back_flip, name="flip", gravity=gravity, jump_height=height, angle=angle)
             note = f", {share:.0%} of the flight as in the paper"
-            if asked.jump_height is None:
+            if requirement.jump_height is None:
                 note += "; the jump's height is the paper's, scaled"
             add(replace(flip, duration=share * flip.flight_time), note)
-    if asked.fall or asked.tilt:
-        for height in asked.fall or (drop.height,):
-            for tilt in asked.tilt or (Tilt(drop.roll, drop.pitch),):
+    if requirement.fall or requirement.tilt:
+        for height in requirement.fall or (drop.height,):
+            for tilt in requirement.tilt or (Tilt(drop.roll, drop.pitch),):
                 fall = replace(drop, name="fall", height=height, roll=tilt.roll, pitch=tilt.pitch)
                 feet = format_quantity(height - standing_height(robot), "mm", 3)
                 note = f", the feet of the level robot {feet} above the ground"
-                if asked.tilt is None:
+                if requirement.tilt is None:
                     note += "; the tilt is the paper's"
-                if asked.fall is None:
+                if requirement.fall is None:
                     note += "; the height is the paper's, scaled"
                 add(fall, note)
     return Worded(tuple(maneuvers), tuple(notes))
 
 
 def _turns(
-    asked: RequirementSection, gravity: float, share: float, heights: tuple[float, float]
+    requirement: RequirementSection,
+    gravity: float,
+    flight_share: float,
+    heights: tuple[float, float],
 ) -> Iterator[TurnTo]:
     """Turns and catches requested, in every jump.
 
     Args:
-        asked: see `worded_maneuvers`. gravity: [m/s^2].
-        share: of its flight that a turn takes, where its time or its jump is not specified.
+        requirement: see `worded_maneuvers`. gravity: [m/s^2].
+        flight_share: of its flight that a turn takes, where its time or its jump is not specified.
         heights: of the jump of a turn and of a catch, where neither is specified [m].
     """
-    for height in asked.jump_height or (None,):
-        for to in asked.turn or ():
-            duration, jump = jump_for(to.duration, height, heights[0], share, gravity)
+    for height in requirement.jump_height or (None,):
+        for turn in requirement.turn or ():
+            duration, jump = jump_for(turn.duration, height, heights[0], flight_share, gravity)
             yield TurnTo(
                 name="turn",
                 gravity=gravity,
-                roll=to.roll,
-                pitch=to.pitch,
-                yaw=to.yaw,
+                roll=turn.roll,
+                pitch=turn.pitch,
+                yaw=turn.yaw,
                 duration=duration,
                 jump_height=jump,
             )
-        for catch in asked.catch or ():
-            duration, jump = jump_for(catch.duration, height, heights[1], share, gravity)
+        for catch in requirement.catch or ():
+            duration, jump = jump_for(catch.duration, height, heights[1], flight_share, gravity)
             yield Catch(
                 name="catch",
                 gravity=gravity,
@@ -145,15 +153,15 @@ SETTLING, CLIMBING = 8.0, 4.0
 
 
 def _pivoted(
-    asked: RequirementSection, gravity: float, robot: Robot
+    requirement: RequirementSection, gravity: float, robot: Robot
 ) -> Iterator[tuple[Pivoted, str]]:
     """Maneuvers requested about the pivot, each with a note on an assumed time.
 
     Raises:
         SpecificationError: the pivot is missing, or given but not used.
     """
-    if asked.pivot is None:
-        if asked.balance or asked.stand_up:
+    if requirement.pivot is None:
+        if requirement.balance or requirement.stand_up:
             ground = format_quantity(-standing_height(robot), "mm", 3)
             raise SpecificationError(
                 "requirement.pivot: is missing, but balance and stand_up need one",
@@ -161,31 +169,34 @@ def _pivoted(
                 f"the ground is at z = {ground}.",
             )
         return
-    if not (asked.balance or asked.stand_up):
+    if not (requirement.balance or requirement.stand_up):
         raise SpecificationError(
             "requirement.pivot: given, but no maneuver uses it",
             hint="Add balance or stand_up, or leave it out.",
         )
-    pivot, edge = asked.pivot.point, asked.pivot.along or (0.0, 0.0, 0.0)
+    pivot, edge = requirement.pivot.point, requirement.pivot.along or (0.0, 0.0, 0.0)
 
-    def lasting(one: Pivoted, specified: float | None, times: float) -> tuple[Pivoted, str]:
-        """The maneuver in the specified time, or in `times` e-folding times of a tilt."""
-        one = one.on(robot.mass_properties)
-        grows = format_quantity(1.0 / one.quickness, "ms", 3)
-        note = f"; the time is {times:g} times the e-folding time of a tilt, {grows}"
-        return replace(one, duration=specified or times / one.quickness), "" if specified else note
+    def with_duration(
+        pivoted: Pivoted, specified: float | None, e_foldings: float
+    ) -> tuple[Pivoted, str]:
+        """The maneuver in the specified time, or in `e_foldings` e-folding times of a tilt."""
+        pivoted = pivoted.on(robot.mass_properties)
+        growth_time = format_quantity(1.0 / pivoted.growth_rate, "ms", 3)
+        note = f"; the time is {e_foldings:g} times the e-folding time of a tilt, {growth_time}"
+        duration = specified or e_foldings / pivoted.growth_rate
+        return replace(pivoted, duration=duration), "" if specified else note
 
-    for upset in asked.balance or ():
-        caught = Balance(name="balance", gravity=gravity, duration=1.0, pivot=pivot, edge=edge)
-        if isinstance(upset, Kick):
-            point, along = _hit(upset, robot)
-            x, y, z = (upset.impulse * along).tolist()
-            yield lasting(replace(caught, impulse=(x, y, z), point=point), None, SETTLING)
+    for disturbance in requirement.balance or ():
+        balance = Balance(name="balance", gravity=gravity, duration=1.0, pivot=pivot, edge=edge)
+        if isinstance(disturbance, Kick):
+            point, along = _hit(disturbance, robot)
+            x, y, z = (disturbance.impulse * along).tolist()
+            yield with_duration(replace(balance, impulse=(x, y, z), point=point), None, SETTLING)
         else:
-            tilted = replace(caught, roll=upset.roll, pitch=upset.pitch)
-            yield lasting(tilted, upset.duration, SETTLING)
-    for climb in asked.stand_up or ():
-        up = StandUp(
+            tilted = replace(balance, roll=disturbance.roll, pitch=disturbance.pitch)
+            yield with_duration(tilted, disturbance.duration, SETTLING)
+    for climb in requirement.stand_up or ():
+        stand_up = StandUp(
             name="stand up",
             gravity=gravity,
             duration=1.0,
@@ -195,7 +206,7 @@ def _pivoted(
             pitch=climb.tilt.pitch,
             actuation=Actuation.BRAKE if climb.brake else Actuation.MOTOR,
         )
-        yield lasting(up, climb.tilt.duration, CLIMBING)
+        yield with_duration(stand_up, climb.tilt.duration, CLIMBING)
 
 
 _WITHOUT_DEVICE = "about the centre of mass without a device"
@@ -211,20 +222,20 @@ def _kicked(kick: Kick, jump: Disturbance, robot: Robot) -> tuple[Disturbance, s
     point, along = _hit(kick, robot)
     impulse = tuple((kick.impulse * along).tolist())
     kicked = replace(jump, name="kick", impulse=impulse, point=point).on(robot.mass_properties)
-    turned = np.multiply(kicked.torque, kicked.duration)
-    moved = np.linalg.norm(kicked.velocity_change)
+    angular_impulse = np.multiply(kicked.torque, kicked.duration)
+    speed_gained = np.linalg.norm(kicked.velocity_change)
     where = ", ".join(f"{1e3 * each:.3g}" for each in point)
     direction = ", ".join(f"{each:.3g}" for each in along)
     default = " (from the side, as no direction is given)" if kick.along is None else ""
-    named = f"{kick.point}, " if isinstance(kick.point, str) else ""
-    roll, pitch, yaw = (f"{each:.3g}" for each in turned)
-    spin = abs(np.linalg.solve(robot.inertia, turned)[2])
+    link = f"{kick.point}, " if isinstance(kick.point, str) else ""
+    roll, pitch, yaw = (f"{each:.3g}" for each in angular_impulse)
+    spin = abs(np.linalg.solve(robot.inertia, angular_impulse)[2])
     rate = format_quantity(spin, "deg/s", 2)
     heading = f" (the wheels cannot cancel the yaw part, which turns it at {rate})"
     return kicked, (
-        f"{kick.impulse:.3g} N s at {named}({where}) mm along ({direction}){default}: "
+        f"{kick.impulse:.3g} N s at {link}({where}) mm along ({direction}){default}: "
         f"angular impulse ({roll}, {pitch}, {yaw}) N m s {_WITHOUT_DEVICE}"
-        f"{heading if spin > _TURNS else ''}, which gains {moved:.3g} m/s; "
+        f"{heading if spin > _YAW_RATE_NOTED else ''}, which gains {speed_gained:.3g} m/s; "
         f"{jump.onset:.3g} s after lift-off, for {jump.duration:.3g} s"
     )
 
@@ -236,15 +247,17 @@ def assumption_with_device(assumption: str, maneuvers: Iterable[Maneuver]) -> st
         assumption: one sentence.
         maneuvers: of robot and device.
     """
-    for each in maneuvers:
-        kick = each.push
+    for maneuver in maneuvers:
+        kick = maneuver.push
         if kick is None or not kick.force.any():
             continue
         # A maneuver of the file may have the name of another assumption, such as "Wheel".
-        if assumption.startswith(f"{each.name}: ") and _WITHOUT_DEVICE in assumption:
-            turned = ", ".join(f"{part:.3g}" for part in kick.duration * kick.torque)
-            moved = kick.duration * np.linalg.norm(kick.acceleration)
-            text = f"with the device on, ({turned}) N m s and {moved:.3g} m/s"
+        if assumption.startswith(f"{maneuver.name}: ") and _WITHOUT_DEVICE in assumption:
+            angular_impulse = ", ".join(
+                f"{component:.3g}" for component in kick.duration * kick.torque
+            )
+            speed_gained = kick.duration * np.linalg.norm(kick.acceleration)
+            text = f"with the device on, ({angular_impulse}) N m s and {speed_gained:.3g} m/s"
             return f"{assumption.removesuffix('.')}; {text}."
     return assumption
 
@@ -258,7 +271,7 @@ def _hit(kick: Kick, robot: Robot) -> tuple[Vector3, FloatArray]:
         SpecificationError: no link has this name.
     """
     point = _frame_of(kick.point, robot) if isinstance(kick.point, str) else kick.point
-    sideways = (0.0, -1.0 if point[1] > _MIDDLE else 1.0, 0.0)
+    sideways = (0.0, -1.0 if point[1] > _MIDDLE_TOLERANCE else 1.0, 0.0)
     along = np.array(sideways if kick.along is None else kick.along)
     return point, np.asarray(along / np.linalg.norm(along))
 
@@ -268,23 +281,25 @@ def _frame_of(link: str, robot: Robot) -> Vector3:
     index = robot.tree.body_of_link.get(link)
     if index is None:
         links = tuple(robot.tree.body_of_link)
-        moved = [each.name for each in robot.tree.bodies if each.joint and each.joint.name == link]
+        moved_links = [
+            each.name for each in robot.tree.bodies if each.joint and each.joint.name == link
+        ]
         raise SpecificationError(
             f"requirement.kick: the robot has no link {link!r}",
-            hint=f"It is a joint: {moved[0]!r} is the link that it moves."
-            if moved
-            else did_you_mean(link, links) or f"Links: {', '.join(links[:_MOST_LINKS])}",
+            hint=f"It is a joint: {moved_links[0]!r} is the link that it moves."
+            if moved_links
+            else did_you_mean(link, links) or f"Links: {', '.join(links[:_LINKS_LISTED])}",
         )
-    placed = robot.tree.placements_from(robot.trunk, robot.posture)[index]
-    x, y, z = (placed @ robot.tree.bodies[index].links[link]).position.tolist()
+    placement = robot.tree.placements_from(robot.trunk, robot.posture)[index]
+    x, y, z = (placement @ robot.tree.bodies[index].links[link]).position.tolist()
     return x, y, z
 
 
-_MIDDLE = 1e-3
+_MIDDLE_TOLERANCE = 1e-3
 """Distance from the trunk's middle plane within which a point counts as on it [m]."""
 
-_TURNS = 0.1
+_YAW_RATE_NOTED = 0.1
 """Yaw rate above which a note says that a kick turns the robot [rad/s]."""
 
-_MOST_LINKS = 20
+_LINKS_LISTED = 20
 """Most links that a message names."""

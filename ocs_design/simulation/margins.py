@@ -112,8 +112,8 @@ def _brake_margins(
         plan = plans.get(maneuver.name)
         if plan is None or not plan.braked_speed:
             continue
-        deceleration = plan.braked_speed / maneuver.stop
-        where = f"from {rpm(plan.braked_speed)} in {1e3 * maneuver.stop:.2g} ms"
+        deceleration = plan.braked_speed / maneuver.braking_time
+        where = f"from {rpm(plan.braked_speed)} in {1e3 * maneuver.braking_time:.2g} ms"
         wheel = device.flywheel.spin_inertia * deceleration
         rotor = SERVICE * (abs(drive.rotor_inertia) + drive.armature) * deceleration
         rows = [

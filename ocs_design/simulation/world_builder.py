@@ -22,7 +22,7 @@ from ocs_design.export.physics import (
 from ocs_design.jumping.jump import IN_FLIGHT, JumpPlan
 from ocs_design.requirement.froude import FroudeScale
 from ocs_design.requirement.maneuver import Maneuver
-from ocs_design.requirement.pivoted import HELD_ON, Pivoted
+from ocs_design.requirement.pivoted import HOLD_TIME_RATIO, Pivoted
 from ocs_design.requirement.sections import ValidationSection
 from ocs_design.requirement.vocabulary import CONTROL_PERIOD
 from ocs_design.robot.robot import Robot
@@ -139,7 +139,7 @@ class WorldBuilder:
         start = launch(maneuver, standing, self._options.drop_profile)
         if pivoted is not None and trajectory is None:
             # Without a plan, or without wheels, there is nothing to spin up and brake.
-            start = replace(start, rate=pivoted.struck)
+            start = replace(start, rate=pivoted.rate_after_disturbance)
         start = start.undisturbed if level else start
         flight = flight_time(maneuver, start, standing)
         # Time simulated after touchdown: one second for Solo12 on Earth.
@@ -149,7 +149,7 @@ class WorldBuilder:
         lift_off = 0.0 if legs is None else legs.lift_off
         duration = (stands or 0.0) + lift_off + (flight + settling)
         if pivoted is not None:
-            standing, duration = -np.inf, (1.0 + HELD_ON) * pivoted.duration
+            standing, duration = -np.inf, (1.0 + HOLD_TIME_RATIO) * pivoted.duration
 
         turn, law, desaturation = start.turn, WheelLaw.off(len(device.modules)), None
         if active:

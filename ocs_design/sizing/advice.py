@@ -249,11 +249,13 @@ def advice_on(
 def _balanced_upset(field: Field) -> Iterator[str]:
     """Sentence on the largest upset that the drives can balance, all else as specified."""
     requirement = field.problem.requirement
-    upset = [maneuver for maneuver in requirement.maneuvers if maneuver.upset]
+    upset = [maneuver for maneuver in requirement.maneuvers if maneuver.disturbance_text]
 
     def is_feasible(factor: float) -> bool:
         milder = requirement.changed(
-            lambda maneuver: maneuver.milder(1.0 / factor) if maneuver.upset else maneuver
+            lambda maneuver: (
+                maneuver.milder(1.0 / factor) if maneuver.disturbance_text else maneuver
+            )
         )
         return field.with_requirement(milder).possible
 
@@ -261,7 +263,10 @@ def _balanced_upset(field: Field) -> Iterator[str]:
         return
     _, factor = narrowed(is_feasible, 1.0, LARGEST_FACTOR, ADVICE_PRECISION)
     text = some_of(
-        [f"{maneuver.milder(1.0 / factor).upset} for {maneuver.name}" for maneuver in upset]
+        [
+            f"{maneuver.milder(1.0 / factor).disturbance_text} for {maneuver.name}"
+            for maneuver in upset
+        ]
     )
     yield f"A device exists with {text}."
 

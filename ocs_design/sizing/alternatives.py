@@ -101,7 +101,7 @@ class Variant:
             return None
         # Kicks about the centre of mass with a device, which hardly moves.
         requirement = changed.resolved.requirement.on(choice.chosen.total)
-        variant = cls(change.text, changed.asking(requirement), choice)
+        variant = cls(change.text, changed.with_requirement(requirement), choice)
         return variant if variant.problem.motors else None
 
     @property

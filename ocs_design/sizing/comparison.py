@@ -57,7 +57,7 @@ def draw_front(
         label=sweep.label,
         unit=sweep.unit,
         si_unit=si_unit(sweep.dimension),
-        own_value=sweep.own(task),
+        own_value=sweep.present_value(task),
         remarks=(*sweep.remarks(task), *filter(None, dict.fromkeys(overfed))),
         assumptions=task.resolved.assumptions,
         points=tuple(points),

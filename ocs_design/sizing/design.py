@@ -78,12 +78,14 @@ def design_device(
         except Infeasible:
             if all(excess > 0.0 for excess, _, _ in tried):
                 requirement = task.resolved.requirement
-                calmer = requirement.changed(lambda maneuver: maneuver.calmer())
+                calmer = requirement.changed(lambda maneuver: maneuver.with_less_torque())
                 if calmer.maneuvers == requirement.maneuvers:
                     raise
                 # Standing up more slowly takes less torque and more momentum.
                 with suppress(Infeasible):
-                    return design_device(task.asking(calmer), ranked=ranked, reserve=reserve)
+                    return design_device(
+                        task.with_requirement(calmer), ranked=ranked, reserve=reserve
+                    )
                 raise
             break
         total, requirement = designed.sized.total, task.resolved.requirement
@@ -106,7 +108,7 @@ def design_device(
                 change_of_offset @ change_of_offset
             )
         previous = com_found, offset
-        task = task.asking(requirement.on(replace(total, com=com)))
+        task = task.with_requirement(requirement.on(replace(total, com=com)))
     return min(tried, key=lambda attempt: attempt[:2])[2]
 
 
@@ -314,7 +316,7 @@ def mass_without_survival(task: Task) -> float | None:
         task: task whose device has to survive it.
     """
     with suppress(Infeasible):
-        free = task.asking(replace(task.resolved.requirement, detection=None))
+        free = task.with_requirement(replace(task.resolved.requirement, detection=None))
         return design_device(free, ranked=False).device.mass
     return None
 

@@ -172,6 +172,6 @@ def advised(
     return advice_on(
         refusal,
         progress,
-        default=specification.asks_nothing,
+        default=specification.maneuvers_are_defaults,
         lightest=all(error.problem.incidence is not None for error in refused),
     )

@@ -24,11 +24,11 @@ from ocs_design.device.records.selection import (
     ReserveRecord,
     UncertaintyCost,
 )
-from ocs_design.requirement.bound import turned_roll
+from ocs_design.requirement.bound import roll_momentum_per_rate
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.requirement import ManeuverReserve, Requirement
 from ocs_design.requirement.uncertainty import UncertaintySection, complete_uncertainty, parts_of
-from ocs_design.requirement.vocabulary import DRAWN, RELIABILITY
+from ocs_design.requirement.vocabulary import RELIABILITY, SAMPLES_DRAWN
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.stance import LANDING_TOLERANCE
 from ocs_design.sizing.selection.demand import roll_cancelling_momentum, wheel_task
@@ -292,7 +292,7 @@ class SampledErrors:
         motor = Drive.of(device.motor, device.gear, problem.bus_voltage)
         spreads = complete_uncertainty(self.specified, self.height, motor)
         random = np.random.Generator(np.random.Philox(key=_SEED))
-        strata, values_by_key = (np.arange(DRAWN) + 0.5) / DRAWN, {}
+        strata, values_by_key = (np.arange(SAMPLES_DRAWN) + 0.5) / SAMPLES_DRAWN, {}
         for key in _RELEVANT_KEYS:
             knots = [getattr(spreads, key).at(knot) for knot in _KNOTS]
             parts = parts_of(key, device.layout.names)
@@ -582,8 +582,10 @@ class _SampledManeuver:
     @property
     def roll_rates(self) -> FloatArray:
         """Roll rates at lift-off that a flip must cancel [rad/s], shape (robots,)."""
-        momentum = np.abs(self.rates[:, 0]) * turned_roll(self.inertia[:, 0], self.yaw_inertia)
-        nominal = turned_roll(self.nominal.diagonal[..., 0], self.yaw_inertia)
+        momentum = np.abs(self.rates[:, 0]) * roll_momentum_per_rate(
+            self.inertia[:, 0], self.yaw_inertia
+        )
+        nominal = roll_momentum_per_rate(self.nominal.diagonal[..., 0], self.yaw_inertia)
         return momentum / nominal if self._cancels_roll else np.zeros(len(momentum))
 
     @property

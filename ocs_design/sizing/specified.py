@@ -158,7 +158,9 @@ def _motors_that_hold(
 
         suitable = (motor for motor in motors if is_held(motor, None) and holds_wheel(motor))
         motors = tuple(suitable) or motors
-    brake_time = min((maneuver.stop for maneuver in resolved.requirement.maneuvers), default=inf)
+    brake_time = min(
+        (maneuver.braking_time for maneuver in resolved.requirement.maneuvers), default=inf
+    )
     if not isfinite(brake_time):
         return motors
     limited = []

@@ -171,7 +171,7 @@ def size_on_robot(
             jumping.cancel()
         if isinstance(error, Infeasible):
             error.assumptions, error.warnings = resolved.assumptions, robot.warnings
-            if specification.asks_nothing and not isinstance(error, Refused):
+            if specification.maneuvers_are_defaults and not isinstance(error, Refused):
                 error.hint = f"{defaults_text(resolved.requirement.maneuvers)} {error.hint}"
         raise
     forget_collision_model()

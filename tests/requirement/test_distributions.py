@@ -15,7 +15,7 @@ from wheels import EC45
 from ocs_design.common.errors import OcsError
 from ocs_design.common.units import Dimension
 from ocs_design.requirement.uncertainty import (
-    CUT,
+    TRUNCATION,
     Constant,
     Normal,
     Spread,
@@ -32,7 +32,7 @@ finite = st.floats(-1e6, 1e6)
 def test_a_normal_distribution_is_truncated_at_three_deviations():
     parts = np.linspace(0.0, 1.0, 101)
     ours = [Normal(2.0, 0.5).at(part) for part in parts]
-    theirs = stats.truncnorm(-CUT, CUT, loc=2.0, scale=0.5).ppf(parts)
+    theirs = stats.truncnorm(-TRUNCATION, TRUNCATION, loc=2.0, scale=0.5).ppf(parts)
     np.testing.assert_allclose(ours, theirs, rtol=0.0, atol=1e-9)
 
 

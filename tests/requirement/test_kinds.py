@@ -59,8 +59,8 @@ def test_a_slower_maneuver_has_more_time_by_the_factor(maneuver, factor):
 
 @for_every_kind
 def test_a_maneuver_reduced_to_zero_requires_nothing(maneuver):
-    assert not maneuver.idle
-    assert bool(maneuver.milder(0.0).idle) == bool(maneuver.milder_by)
+    assert not maneuver.zero_demand
+    assert bool(maneuver.milder(0.0).zero_demand) == bool(maneuver.milder_by)
     assert not maneuver.reducible or maneuver.milder_by
 
 

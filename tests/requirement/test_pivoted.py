@@ -45,8 +45,8 @@ def test_braking_from_the_speed_of_the_cubli():
     np.testing.assert_array_equal(jump.least_torque(ANY, 0.1), 0.0)
     # During braking, gravity takes 2 % of the momentum of a small tilt.
     pole = np.sqrt((m_b * l_b + m_w * l_w) * g / (i_w + i_b + m_w * l_w**2))
-    assert jump.stop == pytest.approx(0.02 / pole, rel=1e-12)
-    assert jump.stop == pytest.approx(2.1e-3, rel=0.02)
+    assert jump.braking_time == pytest.approx(0.02 / pole, rel=1e-12)
+    assert jump.braking_time == pytest.approx(2.1e-3, rel=0.02)
 
 
 @pytest.mark.slow
@@ -95,7 +95,7 @@ def test_a_wheel_that_starts_spinning_backwards_may_be_smaller(pitch):
 def test_an_impulse_turns_about_the_edge_by_the_inertia_there():
     body = MassProperties(2.0, np.array([0.0, 0.0, 0.015]), np.diag([0.01, 0.02, 0.03]))
     hit = Balance(name="hit", **EDGE, impulse=(0.3, -0.5, 0.0), point=(0.0, 0.0, 0.115), duration=1)
-    rate = hit.on(body).struck
+    rate = hit.on(body).rate_after_disturbance
     # 0.5 N s to the right at 0.2 m about 0.01 + 2 (0.1 m)^2.
     np.testing.assert_allclose(rate, [0.5 * 0.2 / 0.03, 0.0, 0.0], atol=1e-14)
 

@@ -57,21 +57,23 @@ def varied(sweep, value, task):
 @pytest.mark.parametrize("ratio", [0.9, 1.0, 1.3])
 def test_a_sweep_sets_its_value(task, name, text, ratio):
     sweep, specified = SWEEPS[name], task(text)
-    value = ratio * sweep.own(specified)
-    assert sweep.own(varied(sweep, value, specified)) == pytest.approx(value, rel=1e-14)
+    value = ratio * sweep.present_value(specified)
+    assert sweep.present_value(varied(sweep, value, specified)) == pytest.approx(value, rel=1e-14)
 
 
 def test_own_values_of_solo12(task):
     specified = task()
-    assert SWEEPS["time"].own(specified) == pytest.approx(0.385, abs=5e-4)
-    assert SWEEPS["angle"].own(specified) == pytest.approx(radians(30.0))
-    assert SWEEPS["radius"].own(specified) == 0.05
-    assert SWEEPS["height"].own(specified) == 0.01
-    assert SWEEPS["voltage"].own(specified) == 24.0
+    assert SWEEPS["time"].present_value(specified) == pytest.approx(0.385, abs=5e-4)
+    assert SWEEPS["angle"].present_value(specified) == pytest.approx(radians(30.0))
+    assert SWEEPS["radius"].present_value(specified) == 0.05
+    assert SWEEPS["height"].present_value(specified) == 0.01
+    assert SWEEPS["voltage"].present_value(specified) == 24.0
 
 
 def test_longer_falls_and_flips_start_higher(task):
-    longer = varied(SWEEPS["time"], 2.0 * SWEEPS["time"].own(task(WITH_ROLL)), task(WITH_ROLL))
+    longer = varied(
+        SWEEPS["time"], 2.0 * SWEEPS["time"].present_value(task(WITH_ROLL)), task(WITH_ROLL)
+    )
     push, drop, flip = longer.maneuvers
     standing = longer.standing_height
     assert drop.height - standing == pytest.approx(4.0 * (0.8 - standing))
@@ -94,7 +96,7 @@ def test_a_larger_angle_keeps_direction_and_sign(task):
 
 def test_a_sweep_of_one_maneuver(task):
     sweep = sweep_of("time", "back-flip")
-    assert sweep.own(task(WITH_ROLL)) == 0.75
+    assert sweep.present_value(task(WITH_ROLL)) == 0.75
     _, drop, flip = varied(sweep, 0.7, task(WITH_ROLL)).maneuvers
     assert isinstance(drop, Drop)
     assert drop.height == 0.8
@@ -136,14 +138,14 @@ def test_a_sweep_replaces_the_papers_three_by_tables(task):
 )
 def test_invalid_sweeps_are_refused(task, name, maneuver, text, message):
     with pytest.raises(UsageError, match=message):
-        sweep_of(name, maneuver).own(task(text))
+        sweep_of(name, maneuver).present_value(task(text))
 
 
 def test_a_level_drop_has_no_angle_to_scale(task):
     level = '[[maneuver]]\nname = "fall"\nkind = "drop"\nheight = 0.8\npitch = 0\n'
     level += "[requirement]\nrate_change = 2\n"
     with pytest.raises(UsageError, match="has no turn"):
-        SWEEPS["angle"].own(task(level))
+        SWEEPS["angle"].present_value(task(level))
 
 
 def test_a_variant_keeps_the_estimate_from_the_plan_of_a_turn(solo12):

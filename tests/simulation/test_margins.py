@@ -126,9 +126,11 @@ def test_braking_loads_the_wheel_and_the_shaft_joint():
     up, margins = braked_margins(sizing)
     wheel, drive = sizing.device.flywheel, sizing.device.motor
     assert margins["wheel speed"].demand == 400.0
-    assert margins["brake torque"].demand == pytest.approx(wheel.spin_inertia * 400.0 / up.stop)
+    assert margins["brake torque"].demand == pytest.approx(
+        wheel.spin_inertia * 400.0 / up.braking_time
+    )
     shaft = margins["shaft joint, braked"]
-    assert shaft.demand == pytest.approx(1.5 * drive.rotor_inertia * 400.0 / up.stop)
+    assert shaft.demand == pytest.approx(1.5 * drive.rotor_inertia * 400.0 / up.braking_time)
     assert shaft.capacity == margins["shaft joint"].capacity
     assert "from 3,820 rpm in 3.8 ms" in shaft.note
     assert shaft.scenario == "up"

@@ -62,7 +62,7 @@ def test_the_shaft_joint_limits_the_speed_of_braked_wheels():
     device = design_device(task).device
     joint = next(each for each in joints_of(device) if each.name == SHAFT_JOINT)
     drive = device.motor
-    speed_max = joint.capacity * climb.stop / (1.5 * drive.rotor_inertia)
+    speed_max = joint.capacity * climb.braking_time / (1.5 * drive.rotor_inertia)
     assert drive.speed_max <= speed_max * (1.0 + 1e-9)
     assert speed_max < min(drive.no_load_speed, speed_limit(motor(drive.name)))
 

@@ -14,7 +14,7 @@ from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.monte_carlo.campaign import fly_samples, make_campaign
 from ocs_design.monte_carlo.summary import attitude_error
 from ocs_design.monte_carlo.uncertainty import Uncertainty
-from ocs_design.requirement.bound import turned_roll
+from ocs_design.requirement.bound import roll_momentum_per_rate
 from ocs_design.requirement.froude import standing_height
 from ocs_design.requirement.reading import parse_specification
 from ocs_design.requirement.requirement import ManeuverReserve, Requirement
@@ -246,7 +246,9 @@ def test_a_roll_rate_at_lift_off_requires_larger_wheels_or_another_incidence():
         chosen = design.choice.chosen
         inertia, speed = chosen.total.inertia, 0.95 * chosen.line.no_load_speed
         capacity = 2.0 * chosen.spin_inertia * speed * np.sin(chosen.incidence)
-        required = turned_roll(inertia[0, 0], inertia[2, 2]) * flip.undone / ROLL_CANCELLED
+        required = (
+            roll_momentum_per_rate(inertia[0, 0], inertia[2, 2]) * flip.undone / ROLL_CANCELLED
+        )
         assert capacity >= required * (1.0 - 1e-3)
 
 
@@ -297,7 +299,7 @@ def test_the_momentum_that_cancels_a_roll_at_lift_off_agrees_with_the_closed_for
     assert abs(tilt) == pytest.approx(rate * roll / yaw * duration / 2.0, rel=0.01)
     tilt, momentum = flip(rate * roll / yaw)
     assert abs(tilt) < 2e-4
-    assert momentum == pytest.approx(rate * turned_roll(roll, yaw), rel=1e-3)
+    assert momentum == pytest.approx(rate * roll_momentum_per_rate(roll, yaw), rel=1e-3)
 
 
 @pytest.mark.slow

@@ -265,7 +265,7 @@ def test_wheels_with_authority_about_yaw_are_sized_for_a_direct_turn(layout, dir
     task = solo12_task(**turning, ocs__layout=layout)
     problem = selection_problem(task)
     (turn,) = problem.requirement.maneuvers
-    assert turn.headed == direct
+    assert turn.has_heading_demand == direct
     assert (turn.turn == 0.0).all() == direct
     if direct:
         designed = design_device(task)

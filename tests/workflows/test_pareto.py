@@ -22,7 +22,7 @@ def task():
 def test_the_specified_value_is_one_of_nine(task, name):
     sweep = SWEEPS[name]
     values = sweep.values(task, low=None, high=None, points=9)
-    own = sweep.own(task)
+    own = sweep.present_value(task)
     assert min(abs(value / own - 1.0) for value in values) < 1e-12
     assert values[0] < own < values[-1]
 
@@ -33,7 +33,7 @@ def test_specified_values(task):
 
 
 def test_one_end_may_be_left_to_its_default(task):
-    own = SWEEPS["radius"].own(task)
+    own = SWEEPS["radius"].present_value(task)
     values = SWEEPS["radius"].values(task, low=None, high="60mm", points=2)
     assert values == pytest.approx((0.6 * own, 0.06))
 

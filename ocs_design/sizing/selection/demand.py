@@ -12,7 +12,7 @@ from ocs_design.actuation.tilt_inertia import OUT_OF_REACH, TiltInertia
 from ocs_design.actuation.wheel_load import WheelTask, gauge, spin_demand, without_each
 from ocs_design.common.arrays import FloatArray
 from ocs_design.device.records.selection import TaskDemand
-from ocs_design.requirement.bound import AXES, rate_momenta, turned_roll
+from ocs_design.requirement.bound import AXES, rate_momenta, roll_momentum_per_rate
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.requirement import Requirement
 from ocs_design.sizing.selection.composite_inertia import CompositeInertia
@@ -83,7 +83,7 @@ def margins_of(
     at_design, at_own = list[Margins](), list[Margins]()
     unspecified = [maneuver for maneuver in requirement.maneuvers if maneuver.incidence is None]
     for headed in (False, True):
-        maneuvers = [maneuver for maneuver in unspecified if maneuver.headed == headed]
+        maneuvers = [maneuver for maneuver in unspecified if maneuver.has_heading_demand == headed]
         at_design += margins_at(
             maneuvers, angle, with_rate=requirement.incidence_is_free and with_rate
         )
@@ -142,7 +142,7 @@ def wheel_task(
         axes: of the wheels, shape (n, k, 3, w).
         with_rate: see `Requirement.slew`, for each; None: False for all.
     """
-    headed = maneuvers[0].headed
+    headed = maneuvers[0].has_heading_demand
     axes = axes if headed else axes[..., :2, :]
     inertia, reach = inertia.times(axes.shape[:-2]), np.abs(axes[..., :2, :]).max(axis=-1)
     inertias = [
@@ -254,7 +254,7 @@ def roll_cancelling_momentum(
     Returns:
         Momentum of each wheel [N m s], shape (...).
     """
-    required = turned_roll(inertia.diagonal[..., 0], yaw_inertia) * rate / ROLL_CANCELLED
+    required = roll_momentum_per_rate(inertia.diagonal[..., 0], yaw_inertia) * rate / ROLL_CANCELLED
     remaining = (axes,) if requirement.detection is None else without_each(axes)
     roll, _, yaw = np.moveaxis(
         np.min([np.abs(wheels).sum(axis=-1) for wheels in remaining], axis=0), -1, 0

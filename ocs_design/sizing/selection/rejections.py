@@ -247,7 +247,7 @@ def _parts(
         demand_ratio = np.divide(
             time_taken, time, out=np.full(time_taken.shape, np.inf), where=time > 0.0
         )
-        if maneuver.upset:
+        if maneuver.disturbance_text:
             # The whole demand is proportional to the tilt, and the time is not set by the user.
             demand = spin_demand(task, line, armature)
             wheel = np.minimum(largest[:, None], 0.5 / demand.coupling)
@@ -344,9 +344,9 @@ def _reason(
         (maneuver for maneuver in problem.requirement.maneuvers if maneuver.name == part.name), None
     )
     best, given = f"takes {part.demand_ratio * part.time:.3g} s at best", f"{part.time:.3g} s"
-    if maneuver is not None and maneuver.upset:
-        milder = maneuver.milder(float(1.0 / part.demand_ratio)).upset
-        best, given = f"recovers from {milder} at best", maneuver.upset
+    if maneuver is not None and maneuver.disturbance_text:
+        milder = maneuver.milder(float(1.0 / part.demand_ratio)).disturbance_text
+        best, given = f"recovers from {milder} at best", maneuver.disturbance_text
     elif np.isinf(part.demand_ratio):
         best = "is never completed"
     detail = f"{part.name} {best}, {given} given"

@@ -12,7 +12,7 @@ from ocs_design.common.quaternions import conjugate, from_axis_angle, product, s
 from ocs_design.common.units import format_quantity, rpm
 from ocs_design.requirement.boundary import Boundary, End
 from ocs_design.requirement.maneuver import Maneuver
-from ocs_design.requirement.pivoted import HELD_ON
+from ocs_design.requirement.pivoted import HOLD_TIME_RATIO
 from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.trajectory.flight import Flight, fly
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat, takeover_factor
@@ -287,9 +287,9 @@ def _unplanned(
 def _with_balancing(
     gyrostat: Gyrostat, line: DriveLine, duration: float, planned: Trajectory | None = None
 ) -> Trajectory:
-    """Hold upright on a pivot after the plan, for `HELD_ON` times as long, wheels to rest."""
+    """Hold upright on a pivot after the plan, `HOLD_TIME_RATIO` times as long, wheels to rest."""
     wheels, start_time = gyrostat.axes.shape[1], 0.0 if planned is None else planned.time[-1]
-    until = (1.0 + HELD_ON) * duration
+    until = (1.0 + HOLD_TIME_RATIO) * duration
     # The plan applies until then.
     time = start_time + np.array([_BALANCE_DELAY, BALANCE_STEP])
     zeros, upright = np.zeros((len(time), 3)), np.tile(gyrostat.upright, (len(time), 1))
