@@ -48,11 +48,11 @@ def plausibility_warnings(
         )
         if density > DENSEST_ROBOT:
             warnings.add(
-                f"{summary}, as dense as solid metal: masses in grams, or lengths too small?"
+                f"{summary}, as dense as solid metal (masses in grams, or lengths too small?)"
             )
         elif density < LIGHTEST_ROBOT:
             warnings.add(
-                f"{summary}, as light as air: lengths in millimetres, or masses in tonnes?"
+                f"{summary}, as light as air (lengths in millimetres, or masses in tonnes?)"
             )
         for body in tree.bodies:
             _judge_body(body, warnings)
@@ -94,7 +94,7 @@ def _judge_body(body: Body, warnings: Warnings) -> None:
     if joint is not None and joint.kind is JointKind.REVOLUTE:
         fewest, largest = DEGREES
         if fewest < joint.upper - joint.lower <= largest:
-            warnings.add("joints with a range of many turns: limits in degrees?", joint.name)
+            warnings.add("joints with a range of many turns (limits in degrees?)", joint.name)
     # There is already a warning of mass properties that are not physical.
     if properties.mass == 0.0 or physical_defect(properties) is not None:
         return
@@ -110,8 +110,8 @@ def _judge_body(body: Body, warnings: Warnings) -> None:
         asymmetry = max(float(moments[1] - moments[0]), product) / max(float(moments[1]), 1e-300)
         if asymmetry > LOPSIDED:
             warnings.add(
-                "links that are round about their joint, but whose inertia is not: given in other "
-                "axes?",
+                "links that are round about their joint, but whose inertia is not (given in other "
+                "axes?)",
                 f"{body.name} (by {asymmetry:.0%})",
             )
 
@@ -199,7 +199,7 @@ SHIFTED = 2.0
 """Ratio to a solid box's inertia above which an inertia is taken to be about the frame's origin, if
 it falls by as much when the parallel-axis term is removed."""
 
-_OTHER_AXES = "links whose inertia does not match their shapes' axes: given in other axes?"
+_OTHER_AXES = "links whose inertia does not match their shapes' axes (given in other axes?)"
 
 
 def _contradictions(properties: MassProperties, box: Box) -> Iterator[tuple[str, str]]:
@@ -212,13 +212,13 @@ def _contradictions(properties: MassProperties, box: Box) -> Iterator[tuple[str,
     density = properties.mass / box.volume
     if density > STEEL:
         yield (
-            "links heavier than their shapes in solid steel: masses in grams, or shapes too small?",
+            "links heavier than their shapes in steel (masses in grams, or shapes too small?)",
             f"{density:.2g} kg/m3",
         )
     elif density < AIR:
         yield (
-            "links lighter than the air in their shapes: a mesh in millimetres without a scale, "
-            "or masses in tonnes?",
+            "links lighter than the air in their shapes (a mesh in millimetres without a scale, "
+            "or masses in tonnes?)",
             f"{density:.2g} kg/m3",
         )
     outside = float(np.maximum(box.lower - properties.com, properties.com - box.upper).max())
@@ -227,13 +227,13 @@ def _contradictions(properties: MassProperties, box: Box) -> Iterator[tuple[str,
     share = _share(variances, box)
     if outside > OUTSIDE * box.sides.max():
         yield (
-            "links whose centre of mass is outside their shapes: in another frame, or in "
-            "millimetres?",
+            "links whose centre of mass is outside their shapes (in another frame, or in "
+            "millimetres?)",
             f"by {1e3 * outside:.3g} mm",
         )
     elif _is_about_origin(properties, box):
         yield (
-            "links whose inertia is about their origin, not their centre of mass?",
+            "links whose inertia seems to be about their origin, not their centre of mass",
             f"{share:.3g} times a solid box's",
         )
     elif excess > TOO_LARGE:
@@ -246,14 +246,14 @@ def _contradictions(properties: MassProperties, box: Box) -> Iterator[tuple[str,
         yield (
             _OTHER_AXES
             if any(fits)
-            else "links with more inertia than their shapes allow: a unit other than kg m2, a "
-            "placeholder, or a mesh without its scale?",
+            else "links with more inertia than their shapes allow (a unit other than kg m2, a "
+            "placeholder, or a mesh without its scale?)",
             f"radius of gyration {excess:.3g} times the largest possible",
         )
     elif share < TOO_SMALL**2:
         yield (
-            "links with too little inertia for their shapes: a unit other than kg m2, or a mesh "
-            "without its scale?",
+            "links with too little inertia for their shapes (a unit other than kg m2, or a mesh "
+            "without its scale?)",
             f"{share:.2g} times a solid box's",
         )
     else:

@@ -369,7 +369,7 @@ def read_urdf(content: bytes, *, find_mesh: FindMesh) -> Tree:
         name = part.get("name", "")
         angles = [numbers(origin, "rpy", name, (0.0, 0.0, 0.0)) for origin in part.iter("origin")]
         if angles and np.abs(angles).max() > _LARGEST_ANGLE:
-            warnings.add("frames turned by more than two turns: angles in degrees?", name)
+            warnings.add("frames turned by more than two turns (angles in degrees?)", name)
     return make_tree(root.get("name") or base, base, links, children, warnings)
 
 

@@ -122,7 +122,9 @@ def substitutions(
         )
         assumptions.append(f"Layout: {layout}, {WHEELS[layout]} wheels. With two: {reason}")
         if specification.motor.name not in {None, AUTO}:
-            warnings.append(f"{WHEELS[layout]} wheels are used. With two: {reason}")
+            warnings.append(
+                f"{WHEELS[layout]} wheels are used; the assumptions say why two are not"
+            )
     criterion = specification.ocs.alpha_criterion
     if variant.ocs.alpha_criterion != criterion:
         at_alpha = replace(variant.ocs, alpha_criterion=criterion)
