@@ -397,7 +397,9 @@ def validate(
         engine_text = "" if engine == "mujoco" else " with MuJoCo"
         command = sample_command(context, answer.record.design, record.seed)
         replay_command = f"Fly one again{engine_text}: {command}"
-    show = partial(print_validated, folder=answer.folder, files=answer.files, again=replay_command)
+    show = partial(
+        print_validated, folder=answer.folder, files=answer.files, replay_hint=replay_command
+    )
     output.give(answer.record, show, answer.record.warnings)
     if view:
         watch(answer)

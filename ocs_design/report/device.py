@@ -236,14 +236,14 @@ def layout_text(ocs: OcsRecord) -> str:
 
 def criterion_table(ocs: OcsRecord) -> CellTable:
     """Best incidence under each criterion, with the device and for the robot alone."""
-    alone = ocs.incidence_by_criterion_robot_alone
+    robot_alone = ocs.incidence_by_criterion_robot_alone
     return CellTable(
         columns("<incidence by criterion", "with the device [deg]", "robot alone [deg]"),
         tuple(
             (
                 name,
                 degrees_number(angle, 2),
-                degrees_number(alone[name], 2) if name in alone else "",
+                degrees_number(robot_alone[name], 2) if name in robot_alone else "",
             )
             for name, angle in ocs.incidence_by_criterion.items()
         ),

@@ -98,8 +98,8 @@ def drive_name(entry: RankedRecord) -> str:
 def best_drives(ranking: tuple[RankedRecord, ...]) -> tuple[RankedRecord, ...]:
     """Lightest device of each motor and gear; the same drive with other materials is left out."""
     best: dict[tuple[str, str], RankedRecord] = {}
-    for entry in ranking:
-        best.setdefault((entry.motor, entry.gear), entry)
+    for drive in ranking:
+        best.setdefault((drive.motor, drive.gear), drive)
     return tuple(best.values())
 
 
@@ -110,11 +110,11 @@ def shown_drives(ranking: tuple[RankedRecord, ...]) -> tuple[RankedRecord, ...]:
     """
     drives = best_drives(ranking)
     motors: dict[str, RankedRecord] = {}
-    for entry in drives:
-        motors.setdefault(entry.motor, entry)
+    for drive in drives:
+        motors.setdefault(drive.motor, drive)
     lightest = tuple(motors.values())
-    shown = (*lightest, *(entry for entry in drives if entry not in lightest))[:DRIVES_SHOWN]
-    return tuple(entry for entry in drives if entry in shown)
+    shown = (*lightest, *(drive for drive in drives if drive not in lightest))[:DRIVES_SHOWN]
+    return tuple(drive for drive in drives if drive in shown)
 
 
 def ruled_out(selection: SelectionRecord) -> str:

@@ -74,7 +74,7 @@ class RecordedFlight:
         return self.columns[f"wheel_torque_{wheel}_nm"]
 
     @property
-    def driven(self) -> slice:
+    def driven_samples(self) -> slice:
         """Samples from lift-off, or the push, to touchdown, while the wheels work.
 
         For a robot that never left the ground this is the last sample.
@@ -82,12 +82,12 @@ class RecordedFlight:
         if self.lift_off is None:
             return slice(-1, None)
         first = int(np.searchsorted(self.time, self.lift_off))
-        if self.flies and self.touchdown is not None:
+        if self.was_airborne and self.touchdown is not None:
             return slice(first, int(np.searchsorted(self.time, self.touchdown)) + 1)
         return slice(first, None)
 
     @property
-    def flies(self) -> bool:
+    def was_airborne(self) -> bool:
         """Whether it was in the air at all."""
         return was_in_the_air(self.lift_off, self.touchdown)
 
@@ -127,10 +127,12 @@ class Story:
     @property
     def pivots(self) -> frozenset[str]:
         """Scenarios about a pivot (`was_on_pivot`)."""
-        return frozenset(each.scenario for each in self.design.validation if was_on_pivot(each))
+        return frozenset(
+            record.scenario for record in self.design.validation if was_on_pivot(record)
+        )
 
 
-def story_in(
+def read_story(
     folders: Sequence[Path],
     design: OcsDesign,
     *,
@@ -153,11 +155,11 @@ def story_in(
                 heading, *rows = csv.reader(file)
             values = np.array(rows, dtype=np.float64)
             flights.append(RecordedFlight.of(record, dict(zip(heading, values.T, strict=True))))
-    shown = recorded_flights(design.validation, runs) if runs else tuple(flights)
-    picture = _first_file(folders, f"robot/{safe_name(design.robot.name)}_ocs.glb")
-    bodies = () if picture is None else read_bodies(picture.read_bytes())
+    recorded = recorded_flights(design.validation, runs) if runs else tuple(flights)
+    glb = _first_file(folders, f"robot/{safe_name(design.robot.name)}_ocs.glb")
+    bodies = () if glb is None else read_bodies(glb.read_bytes())
     campaign = read_campaign(folders)
-    return Story(design, shown, bodies, postures, campaign, command, assembly)
+    return Story(design, recorded, bodies, postures, campaign, command, assembly)
 
 
 def _first_file(folders: Sequence[Path], name: str) -> Path | None:
@@ -173,8 +175,8 @@ def read_campaign(folders: Sequence[Path]) -> MonteCarloRecord | None:
     Raises:
         OcsError: the record exists but cannot be read.
     """
-    places = (path for folder in folders for path in sorted(folder.glob(f"**/{RESULT_FILE}")))
-    path = min(places, key=lambda each: each.parent.name == CERTIFICATE_FOLDER, default=None)
+    paths = (path for folder in folders for path in sorted(folder.glob(f"**/{RESULT_FILE}")))
+    path = min(paths, key=lambda path: path.parent.name == CERTIFICATE_FOLDER, default=None)
     if path is None:
         return None
     try:

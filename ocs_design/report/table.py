@@ -29,7 +29,7 @@ class Toned:
 Cell: TypeAlias = str | Toned
 
 
-def plain(cell: Cell) -> str:
+def cell_text(cell: Cell) -> str:
     """The text of a cell."""
     return cell.text if isinstance(cell, Toned) else cell
 
@@ -58,8 +58,8 @@ _HEADING = re.compile(r"(<?)(.*?)(?: \[(.*)\])?", re.DOTALL)
 
 def columns(*headings: str) -> tuple[Heading, ...]:
     """Columns from headings such as `mass [g]`; a leading `<` marks a column of words."""
-    parts = (_HEADING.fullmatch(heading) for heading in headings)
-    return tuple(Heading(each[2], each[3] or "", bool(each[1])) for each in parts if each)
+    matches = (_HEADING.fullmatch(heading) for heading in headings)
+    return tuple(Heading(match[2], match[3] or "", bool(match[1])) for match in matches if match)
 
 
 @dataclass(frozen=True)
@@ -75,12 +75,12 @@ class CellTable:
 
 
 _UNITS = "mm|um|m|kg|g|[mu]?N|s|ms|deg|rad|rpm|V|A|W|kW|J|MPa|ohm|Hz"
-_TIED = re.compile(
+_UNIT_SPACE = re.compile(
     rf"(?<=\d) (?=(?:{_UNITS})\b)|(?<=N) (?=m\b)|(?<=N m) (?=s\b)|(?<=\bkg) (?=m+2\b)"
 )
 """Spaces between a number and its unit, and within a unit."""
 
 
-def tied(text: str) -> str:
+def with_nonbreaking_units(text: str) -> str:
     """Text with non-breaking spaces between numbers and their units."""
-    return _TIED.sub("\N{NO-BREAK SPACE}", text)
+    return _UNIT_SPACE.sub("\N{NO-BREAK SPACE}", text)

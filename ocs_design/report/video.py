@@ -162,13 +162,13 @@ def encode(pictures: Sequence[Picture], seconds: float, stem: Path) -> Path:
                 return path
         # Remove what ffmpeg left unfinished.
         path.unlink(missing_ok=True)
-    path, shown = stem.with_suffix(".gif"), pictures[::GIF_STRIDE]
+    path, kept = stem.with_suffix(".gif"), pictures[::GIF_STRIDE]
     # One palette from a few frames keeps the file small and prevents flicker.
-    sampled = shown[:: max(1, len(shown) // _SAMPLES)]
+    sampled = kept[:: max(1, len(kept) // _SAMPLES)]
     palette = Image.fromarray(np.concatenate(sampled)).quantize(GIF_COLORS)
     # Dithered colours compress badly: to twice the size and more.
     no_dither = Image.Dither.NONE
-    frames = [Image.fromarray(frame).quantize(palette=palette, dither=no_dither) for frame in shown]
+    frames = [Image.fromarray(frame).quantize(palette=palette, dither=no_dither) for frame in kept]
     duration = round(1e3 * GIF_STRIDE * seconds)
     frames[0].save(path, save_all=True, append_images=frames[1:], duration=duration, loop=0)
     return path

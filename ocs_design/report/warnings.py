@@ -61,8 +61,8 @@ def all_warnings(design: OcsDesign) -> Iterator[str]:
             f"{SAMPLES_DRAWN:,} samples, which cannot show more: fly more of them with --certify"
         )
     # An open point is reported with the verdict.
-    said = tuple(point.what for point in design.buildable.open)
-    yield from (each for each in ocs.warnings if not each.startswith(said))
+    reported = tuple(point.what for point in design.buildable.open)
+    yield from (warning for warning in ocs.warnings if not warning.startswith(reported))
     if ocs.motor.overvoltage:
         yield ocs.motor.overvoltage
     yield from design.robot.warnings[1:]

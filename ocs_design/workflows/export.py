@@ -153,7 +153,7 @@ def _read_story(
     Files that the folder lacks are taken from the design's own folder.
     """
     # It needs the simulator's values, which parts and snippets do not.
-    from ocs_design.report.story import story_in  # noqa: PLC0415
+    from ocs_design.report.story import read_story  # noqa: PLC0415
 
     postures: tuple[PostureLine, ...] = ()
     remarks: tuple[str, ...] = ()
@@ -163,7 +163,7 @@ def _read_story(
     except OcsError as error:
         remarks = (f"without the chart of incidence over postures: {error.message}",)
     folders = [folder, location.design.parent]
-    return story_in(folders, design, postures=postures, command=command), remarks
+    return read_story(folders, design, postures=postures, command=command), remarks
 
 
 def _write_controller(name: str, location: RobotLocation, folder: Path) -> None:

@@ -22,7 +22,7 @@ from ocs_design.report.charts.figures import FOLDER, all_charts
 from ocs_design.report.charts.svg import write_svgs
 from ocs_design.report.html.notebook import as_html
 from ocs_design.report.html.page import write_report
-from ocs_design.report.story import story_in
+from ocs_design.report.story import read_story
 from ocs_design.report.text.console import ProgressCallback, Steps
 from ocs_design.report.video import film_if_possible
 from ocs_design.requirement.froude import standing_height
@@ -264,7 +264,7 @@ def _write_report(
     design: OcsDesign, subject: Subject, runs: Sequence[Run], folder: Path, command: str
 ) -> OcsDesign:
     """Write figures and report; returns the design with the hashes of all files but the report."""
-    story = story_in(
+    story = read_story(
         [folder],
         design,
         runs=runs,

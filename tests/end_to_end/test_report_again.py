@@ -15,7 +15,7 @@ from ocs_design.common.files import to_json
 from ocs_design.device.answers import CONFIDENCE, MonteCarloRecord
 from ocs_design.device.records.design import read_design
 from ocs_design.monte_carlo.outcomes import share
-from ocs_design.report.story import read_campaign, story_in
+from ocs_design.report.story import read_campaign, read_story
 
 DOC = (Path(__file__).parents[2] / "docs" / "report.md").read_text()
 
@@ -77,7 +77,7 @@ def test_a_report_into_the_folder_of_the_design_keeps_other_files(design):
 
 def test_flights_of_the_story_are_read_from_their_files(product):
     folder = product.folder
-    story = story_in([Path("/nowhere"), folder], read_design(folder / "design.json"))
+    story = read_story([Path("/nowhere"), folder], read_design(folder / "design.json"))
     assert [(flight.scenario, flight.ocs) for flight in story.flights] == [
         (run.scenario, run.ocs) for run in story.design.validation
     ]

@@ -23,7 +23,7 @@ from ocs_design.report.limits import (
     useless_changes_note,
     utilizations,
 )
-from ocs_design.report.table import plain
+from ocs_design.report.table import cell_text
 from ocs_design.report.text.layout import items, show
 from ocs_design.sizing import lightest_module
 
@@ -83,7 +83,7 @@ def test_quantities_are_in_practical_units():
 def test_margins_are_rounded_down(factor, shown):
     margin = Margin("torque", 1.0, factor, "N m", scenario="drop")
     ((_, _, _, cell, _),) = margin_table((margin,)).rows
-    assert plain(cell) == shown
+    assert cell_text(cell) == shown
 
 
 def test_the_tightest_limits_come_first_with_equal_ones_together():

@@ -147,9 +147,11 @@ def _events(flights: Sequence[RecordedFlight]) -> list[Rule]:
     """Rules at the last lift-off, or push, and at the first touchdown of the flights."""
     lift_off = max((flight.lift_off or 0.0 for flight in flights), default=0.0)
     touchdowns = [
-        flight.touchdown for flight in flights if flight.flies and flight.touchdown is not None
+        flight.touchdown
+        for flight in flights
+        if flight.was_airborne and flight.touchdown is not None
     ]
-    start_label = "lift-off" if any(flight.flies for flight in flights) else "push"
+    start_label = "lift-off" if any(flight.was_airborne for flight in flights) else "push"
     times = [(lift_off, start_label)] if lift_off > 0.0 else []
     end_label = "upright by now" if any(flight.on_pivot for flight in flights) else "touchdown"
     times += [(min(touchdowns), end_label)] if touchdowns else []
@@ -174,8 +176,8 @@ def drive_charts(motor: Drive, flights: Sequence[RecordedFlight]) -> Iterator[Ch
     # The path of each wheel up to the instant of the verdict; the rest is not part of the maneuver.
     paths = [
         Curve(
-            in_unit(flight.wheel_speed(wheel)[flight.driven], "rpm"),
-            flight.wheel_torque(wheel)[flight.driven],
+            in_unit(flight.wheel_speed(wheel)[flight.driven_samples], "rpm"),
+            flight.wheel_torque(wheel)[flight.driven_samples],
             ink,
             "" if index else flight.scenario,
             dashed=index > 0,

@@ -73,7 +73,7 @@ def maneuver_momenta(story: Story) -> tuple[ManeuverMomentum, ...]:
             incidence = incidences.get(flight.scenario)
             incidence = ocs.incidence if incidence is None else incidence
             speeds = np.stack([flight.wheel_speed(wheel) for wheel in flight.wheels], axis=1)
-            wheel_momenta = ocs.spin_inertia * speeds[flight.driven]
+            wheel_momenta = ocs.spin_inertia * speeds[flight.driven_samples]
             path = wheel_momenta @ ocs.axes.axes(incidence)[:2].T
             momenta.append(ManeuverMomentum(flight.scenario, incidence, path))
     if momenta or story.design.selection is not None:

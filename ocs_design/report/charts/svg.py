@@ -203,8 +203,8 @@ class _Drawing:
                     steps = np.ceil(np.abs(np.diff(curve, axis=0)).max(axis=1)).astype(int).clip(1)
                     nodes = np.concatenate([[0], np.cumsum(steps)])
                     along = np.arange(nodes[-1] + 1)
-                    traced = [np.interp(along, nodes, each) for each in curve.T]
-                    self._curves.append(np.stack(traced, axis=-1))
+                    trace = [np.interp(along, nodes, column) for column in curve.T]
+                    self._curves.append(np.stack(trace, axis=-1))
                 paths = "".join(map(_path_data, curves))
                 return f'<path class="{classes}" d="{paths}"/>' if paths else ""
             case FilledArea():
@@ -342,9 +342,9 @@ def _path_data(pixels: FloatArray, *, closed: bool = False) -> str:
     # Points inside a horizontal section are dropped.
     same_direction = steps[1:, 0] * steps[:-1, 0] >= 0.0
     is_level = (steps[1:, 1] == 0.0) & (steps[:-1, 1] == 0.0)
-    kept = rounded[np.concatenate([[True], ~(is_level & same_direction), [True]])]
-    corners = "L".join(f"{x:.1f} {y:.1f}" for x, y in kept.tolist())
-    return f"M{corners}{'Z' if closed else ''}"
+    corners = rounded[np.concatenate([[True], ~(is_level & same_direction), [True]])]
+    points = "L".join(f"{x:.1f} {y:.1f}" for x, y in corners.tolist())
+    return f"M{points}{'Z' if closed else ''}"
 
 
 def _line_element(classes: str, x1: float, y1: float, x2: float, y2: float) -> str:

@@ -121,10 +121,10 @@ def _face_keys(
     a: NDArray[np.int64], b: NDArray[np.int64], c: NDArray[np.int64]
 ) -> tuple[NDArray[np.bool_], NDArray[np.int64]]:
     """Mask of faces with three distinct corners, and a key for each by its corners in any order."""
-    kept = (a != b) & (b != c) & (c != a)
-    a, b, c = a[kept], b[kept], c[kept]
+    is_face = (a != b) & (b != c) & (c != a)
+    a, b, c = a[is_face], b[is_face], c[is_face]
     low, high = np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
-    return kept, (low << 2 * _BITS) | ((a + b + c - low - high) << _BITS) | high
+    return is_face, (low << 2 * _BITS) | ((a + b + c - low - high) << _BITS) | high
 
 
 def _sums(values: FloatArray, index: NDArray[np.intp], count: int) -> FloatArray:

@@ -6,7 +6,7 @@ from html import escape
 
 from ocs_design.report.charts.chart import Chart
 from ocs_design.report.charts.svg import inline_svg
-from ocs_design.report.table import CellTable, Toned, plain, tied
+from ocs_design.report.table import CellTable, Toned, cell_text, with_nonbreaking_units
 
 _ESCAPED = {
     "<": "\\u003c",
@@ -68,7 +68,7 @@ def table(caption: str, content: CellTable) -> Markup:
     for index, column in enumerate(content.columns):
         name = column.name.replace("\n", " ").strip()
         head = f"{name} [{column.unit.strip()}]" if column.unit else name
-        texts = (plain(row[index]) for row in content.rows)
+        texts = (cell_text(row[index]) for row in content.rows)
         # Long texts keep some width on a narrow screen.
         is_long = column.words and max(map(len, texts), default=0) > _LONG_TEXT
         classes.append("word long" if is_long else "word" if column.words else "number")
@@ -80,7 +80,7 @@ def table(caption: str, content: CellTable) -> Markup:
         contents = (
             element("span", cell.text, class_=f"mark {cell.tone}")
             if isinstance(cell, Toned)
-            else tied(cell)
+            else with_nonbreaking_units(cell)
             for cell in row
         )
         row_cells = (
@@ -117,7 +117,7 @@ def figures(charts: Iterable[Chart], *, flight: str = "") -> Markup:
     return element("div", *elements, class_="charts", data_flight=flight)
 
 
-def data(name: str, text: str) -> Markup:
+def json_element(name: str, text: str) -> Markup:
     """JSON element for scripts and other programs, escaped so that it cannot end the element."""
     for character, escaped in _ESCAPED.items():
         text = text.replace(character, escaped)
@@ -138,4 +138,4 @@ def _escaped(content: str) -> str:
     """Markup unchanged, other text escaped, with superscripts in its units."""
     if isinstance(content, Markup):
         return content
-    return escape(_POWER.sub(lambda found: found[1] + {"2": "²", "3": "³"}[found[2]], content))
+    return escape(_POWER.sub(lambda match: match[1] + {"2": "²", "3": "³"}[match[2]], content))

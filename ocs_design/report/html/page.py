@@ -18,7 +18,7 @@ from ocs_design.report.device import has_motor, layout_text, share_of_robot
 from ocs_design.report.flights import hand_turn_remarks
 from ocs_design.report.html import sections
 from ocs_design.report.html.decimation import decimated
-from ocs_design.report.html.elements import Markup, data, element, joined
+from ocs_design.report.html.elements import Markup, element, joined, json_element
 from ocs_design.report.html.view import view, view_data
 from ocs_design.report.story import Story
 from ocs_design.report.verdict import headline
@@ -123,7 +123,7 @@ def _body(story: Story) -> Iterator[Markup]:
         sections.assembly_section(story),
         sections.record_section(story),
     )
-    yield data("design", to_json(design).decode())
+    yield json_element("design", to_json(design).decode())
     yield view_data(story, bodies, scenarios)
 
 

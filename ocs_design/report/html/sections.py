@@ -238,7 +238,7 @@ def monte_carlo_section(story: Story) -> Markup:
         *(
             (
                 element("p", element("strong", monte_carlo.certificate_line(record.certificate))),
-                items([f"{each}." for each in monte_carlo.certificate_notes(record.certificate)]),
+                items([f"{line}." for line in monte_carlo.certificate_notes(record.certificate)]),
             )
             if record.certificate is not None
             else ()
@@ -262,9 +262,7 @@ def assembly_section(story: Story) -> Markup:
         tuple(tuple(map(str, row)) for row in rows)
         for rows in (piece_rows(assembly), screw_rows(assembly))
     )
-    exploded, *cut = (
-        element("figure", Markup(each), class_="sheet") for each in pictures(assembly)
-    )
+    exploded, *cut = (element("figure", Markup(svg), class_="sheet") for svg in pictures(assembly))
     return section(
         "assembly",
         "Assembly: how to build, balance, test and wire it",
@@ -278,15 +276,17 @@ def assembly_section(story: Story) -> Markup:
         *(
             joined(
                 (
-                    element("h3", each.title),
+                    element("h3", chapter.title),
                     element(
-                        "ol", *(element("li", text) for text in each.texts), start=str(each.first)
+                        "ol",
+                        *(element("li", text) for text in chapter.texts),
+                        start=str(chapter.first),
                     )
-                    if each.numbered
-                    else items(each.texts),
+                    if chapter.numbered
+                    else items(chapter.texts),
                 )
             )
-            for each in chapters(assembly)
+            for chapter in chapters(assembly)
         ),
         element("p", "To print this, use ", element("code", "cad/assembly.pdf"), "."),
     )

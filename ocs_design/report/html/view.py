@@ -18,7 +18,7 @@ from ocs_design.export.raster import png_bytes
 from ocs_design.export.snapshot import HEIGHT, WIDTH
 from ocs_design.export.templates import fill
 from ocs_design.report.bodies import ShownBody, still_picture
-from ocs_design.report.html.elements import Markup, data, element, joined
+from ocs_design.report.html.elements import Markup, element, joined, json_element
 from ocs_design.report.story import RecordedFlight, Story
 from ocs_design.robot.mujoco_bodies import quaternion
 from ocs_design.simulation.run import Poses
@@ -48,7 +48,7 @@ def view_data(story: Story, bodies: Sequence[ShownBody], scenarios: Sequence[str
     blob = Blob()
     scene = encoded_scene(bodies, story.flights, scenarios, blob)
     numbers = element("script", Markup(blob.text()), type="text/plain", id="scene-numbers")
-    return joined((data("scene", json.dumps(scene, separators=(",", ":"))), numbers))
+    return joined((json_element("scene", json.dumps(scene, separators=(",", ":"))), numbers))
 
 
 Record = dict[str, Any]

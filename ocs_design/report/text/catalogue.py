@@ -74,8 +74,8 @@ def listing(what: str, files: Mapping[str, str | None]) -> Listing:
     """
     what = what.casefold()
     if what not in KINDS:
-        known = ", ".join(f"catalogue {name}" for name in KINDS)
-        raise UsageError(f"there is no catalogue of {what}", hint=f"try: {known}")
+        commands = ", ".join(f"catalogue {name}" for name in KINDS)
+        raise UsageError(f"there is no catalogue of {what}", hint=f"try: {commands}")
     for kind, file in files.items():
         if file is not None and kind != what:
             raise UsageError(f"--{kind} has no effect on {what}", hint=f"try: catalogue {kind}")

@@ -14,7 +14,7 @@ from rich.text import Text
 
 from ocs_design.device.records.design import DESIGN_FILE
 from ocs_design.export.folder import REPORT_FILE
-from ocs_design.report.table import CellTable, Tone, Toned, plain, tied
+from ocs_design.report.table import CellTable, Tone, Toned, cell_text, with_nonbreaking_units
 from ocs_design.report.text.console import breaks_lines
 
 INDENT = (0, 0, 0, 2)
@@ -39,7 +39,9 @@ def heading(console: Console, text: str) -> None:
 
 def wrapped(text: str, width: int) -> str:
     """Lines of a text, none of which ends between a number and its unit."""
-    lines = textwrap.wrap(tied(text), width, break_long_words=False, break_on_hyphens=False)
+    lines = textwrap.wrap(
+        with_nonbreaking_units(text), width, break_long_words=False, break_on_hyphens=False
+    )
     return "\n".join(lines).replace("\N{NO-BREAK SPACE}", " ")
 
 
@@ -126,7 +128,10 @@ def _narrowed(table: CellTable, excess: int) -> CellTable:
     """Table that is narrower by so many characters: the widest texts are wrapped between words."""
     widths = {
         index: max(
-            [*map(len, column.name.split("\n")), *(len(plain(row[index])) for row in table.rows)]
+            [
+                *map(len, column.name.split("\n")),
+                *(len(cell_text(row[index])) for row in table.rows),
+            ]
         )
         for index, column in enumerate(table.columns)
         if column.words
@@ -138,7 +143,7 @@ def _narrowed(table: CellTable, excess: int) -> CellTable:
     for row in table.rows:
         cells = list(row)
         for index, width in widths.items():
-            text = plain(row[index])
+            text = cell_text(row[index])
             # A cell of several lines, such as a plot, is left as it is.
             if len(text) > width and "\n" not in text:
                 lines, cell = wrapped(text, width), row[index]

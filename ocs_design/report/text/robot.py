@@ -36,8 +36,8 @@ def print_inspection(console: Console, inspection: Inspection, *, verbose: bool 
         directions = f"forward {recognition.forward}, left {recognition.left}, up {recognition.up}"
         confidence = "as specified"
         if not {"trunk", "legs"} <= set(recognition.stated):
-            given = "".join(f", {name} as specified" for name in recognition.stated)
-            confidence = f"{recognition.confidence:.0%} confidence{given}"
+            as_specified = "".join(f", {name} as specified" for name in recognition.stated)
+            confidence = f"{recognition.confidence:.0%} confidence{as_specified}"
             if recognition.speaks_against:
                 confidence += f": but {'; '.join(recognition.speaks_against)}"
         recognition_rows = [

@@ -198,9 +198,9 @@ def print_summary(console: Console, design: OcsDesign, runs: Sequence[Run], fold
     console.print()
     # The report, the design, the other files beside them, and the folders.
     paths = [PurePosixPath(name) for name in design.files]
-    beside = sorted(str(path) for path in paths if len(path.parts) == 1)
+    files = sorted(str(path) for path in paths if len(path.parts) == 1)
     folders = sorted({f"{path.parts[0]}/" for path in paths if len(path.parts) > 1})
-    written = ", ".join([REPORT_FILE, DESIGN_FILE, *beside, *folders])
+    written = ", ".join([REPORT_FILE, DESIGN_FILE, *files, *folders])
     console.print(Text(f"{folder}/: {written}"))
     print_headline(console, line, Text("(-v: all figures)", "dim"))
 

@@ -41,12 +41,16 @@ def print_headline(console: Console, line: Headline, *more: Text) -> None:
 
 
 def print_validated(
-    console: Console, result: Validated, folder: Path | None, files: Sequence[str], again: str = ""
+    console: Console,
+    result: Validated,
+    folder: Path | None,
+    files: Sequence[str],
+    replay_hint: str = "",
 ) -> None:
     """Print the flights as `size` does, the campaign, the files written, and the verdict.
 
     Args:
-        again: how to fly one of the samples again.
+        replay_hint: how to fly one of the samples again.
     """
     if result.sample is not None:
         heading(console, f"Sample {result.sample.index} of seed {result.sample.seed}")
@@ -69,7 +73,7 @@ def print_validated(
         items(console, monte_carlo.campaign_remarks(record))
         if record.certificate is not None:
             items(console, monte_carlo.certificate_notes(record.certificate))
-        note(console, again)
+        note(console, replay_hint)
     if folder is not None:
         files_written(console, str(folder), files)
     console.print()

@@ -20,7 +20,7 @@ from ocs_design.export.templates import template_text
 from ocs_design.report.bodies import ShownBody, Surface, read_bodies
 from ocs_design.report.charts.chart import SERIES
 from ocs_design.report.html.decimation import clustered, decimated
-from ocs_design.report.html.elements import Markup, data, element, items, table
+from ocs_design.report.html.elements import Markup, element, items, json_element, table
 from ocs_design.report.table import CellTable, Tone, Toned, columns
 from ocs_design.robot.reader import read_robot
 
@@ -141,7 +141,7 @@ def test_text_is_escaped_in_elements_and_attributes(text, value):
 @settings(max_examples=30)
 @given(st.dictionaries(TEXT, TEXT))
 def test_embedded_data_cannot_close_its_element(value):
-    page = Page(data("design", json.dumps(value, ensure_ascii=False)))
+    page = Page(json_element("design", json.dumps(value, ensure_ascii=False)))
     assert page.tags == ["script"]
     assert json.loads("".join(page.texts)) == value
 
