@@ -23,7 +23,7 @@ from ocs_design.export.assembly_notes import drive_notes
 from ocs_design.export.device_parts import BLOCK, pedestal_kinds, printed_parts, ring_fixture
 from ocs_design.export.electrics import battery, controllers, wiring_parts
 from ocs_design.export.formats import Notes, Subject
-from ocs_design.parts.carrier_plate import block_part, mast_part, plate_part, sleeve_part
+from ocs_design.parts.carrier_plate import SHIM, block_part, mast_part, plate_part, sleeve_part
 from ocs_design.parts.housing import LID_SCREWS, guard_ring
 from ocs_design.parts.joints import BOND_STRENGTH, EPOXY
 from ocs_design.parts.printed import (
@@ -44,9 +44,6 @@ COLUMNS = (
 
 _ALLOWANCE = 2e-3
 """Allowance of stock on finished diameter and length, to turn clean and to part off [m]."""
-
-SHIM = 1.0e-3
-"""Length below which a sleeve is easier to make of washers than to cut from tube [m]."""
 
 _MASSLESS = 1e-9
 """Rounding error of masses: remainder of a module's mass after subtracting all parts [kg]."""

@@ -54,6 +54,9 @@ SLEEVE_WALL = 2.0e-3
 SLEEVE_MAX = 0.03
 """Longest sleeve under a plate, four times as long as wide for M3 [m]; only posts are longer."""
 
+SHIM = 1.0e-3
+"""Length below which a sleeve is easier to make of washers than to cut from tube [m]."""
+
 POST_DEPTH = 1.9
 """Least thread depth of posts over their diameter: in aluminium an M8's full preload is then half
 of what strips the thread."""

@@ -24,7 +24,6 @@ from ocs_design.device.layout import PAIR, SIDES
 from ocs_design.device.resonances import resonances_of
 from ocs_design.device.solids import drive_solids, foot_of, shaft_cut
 from ocs_design.export.assembly.content import LEAST_DRILL, Assembly, Tightened
-from ocs_design.export.bill_of_materials import SHIM
 from ocs_design.export.device_parts import (
     BLOCK,
     foot_holes,
@@ -33,7 +32,7 @@ from ocs_design.export.device_parts import (
     trunk_holes,
 )
 from ocs_design.parts.bell import GLUE_GAP
-from ocs_design.parts.carrier_plate import TOUCH, CarrierPlate, steepest
+from ocs_design.parts.carrier_plate import SHIM, TOUCH, CarrierPlate, steepest
 from ocs_design.parts.foot import LONG_MARKS
 from ocs_design.parts.housing import FINGER, LID_SCREWS, lid_sag
 from ocs_design.parts.joints import EPOXY
