@@ -45,30 +45,30 @@ class Drive:
 
     def __init__(self, problem, motor, gear, points=3000):
         rotor = motor.rotor_inertia or 0.0
-        self.thick = problem.foot_plate
-        self.motor, self.gear, self.mount = motor, gear, mount_of(motor, gear, self.thick)
+        self.foot_plate = problem.foot_plate
+        self.motor, self.gear, self.mount = motor, gear, mount_of(motor, gear, self.foot_plate)
         # Posts of a cage are shorter behind a taller rim: integrals are at most cubic in height.
-        drive_bodies = (drive_parts(motor, gear, height, self.thick) for height in HEIGHTS)
+        drive_bodies = (drive_parts(motor, gear, height, self.foot_plate) for height in HEIGHTS)
         self.drive_bodies = [total_body(parts) for parts in drive_bodies]
-        self.height_max = height_max(motor, gear, self.thick)
-        self.webbed, self.hub, self.hub_radius = problem.web, np.zeros(3), 0.0
+        self.height_max = height_max(motor, gear, self.foot_plate)
+        self.has_web, self.hub, self.hub_radius = problem.web, np.zeros(3), 0.0
         self.chamfer, self.web_material = chamfer_of(problem), problem.web_material
         if problem.web:
-            self.web = 1.0e-3 if problem.web_material is None else 1.5e-3
+            self.web_thickness = 1.0e-3 if problem.web_material is None else 1.5e-3
             hub = hub_of(
                 motor.mounting if gear.name == "direct" else None,
                 motor.diameter,
                 chamfer=problem.cuts.chamfer,
-                web_thickness=self.web,
+                web_thickness=self.web_thickness,
             )
             # This hub belongs to a solid web; it has holes if the widest web has room for them.
             widest = np.array([problem.envelope.outer_radius_max - least_wall(problem)])
             lightened = replace(hub, lightening=problem.lightenings[0])
-            self.in_web = lightened if has_room_for_holes(widest, lightened)[0] else hub
+            self.web_hub = lightened if has_room_for_holes(widest, lightened)[0] else hub
             # The lid clears the rim by 2 mm and the heads of the hub's screws by 0.5 mm.
-            self.heads = hub.height + 2.0 * (hub.bolt_head - 1.5e-3) if hub.bolts else 0.0
+            self.heads_height = hub.height + 2.0 * (hub.bolt_head - 1.5e-3) if hub.bolts else 0.0
             self.hub = hub_body(hub, 1.0)
-            widest = max(hub.radius, bore_min(motor, gear, self.thick))
+            widest = max(hub.radius, bore_min(motor, gear, self.foot_plate))
             self.hub_radius = widest + LIGAMENT
         # The rotor turns at N W, in the opposite direction if the gear reverses.
         self.rotor_momentum = gear.ratio * rotor * (-1.0 if gear.reverses else 1.0)
@@ -76,79 +76,85 @@ class Drive:
         voltage, k_t = problem.bus_voltage, motor.torque_constant
         free = voltage / k_t / gear.ratio
         mechanical = min(
-            min(speed_of(motor), gear.motor_speed_max) / gear.ratio,
+            min(speed_limit(motor), gear.motor_speed_max) / gear.ratio,
             gear.wheel_speed_max,
             problem.wheel_speed_max or inf,
         )
         self.proof_speed = PROOF_SPEED * min(free, mechanical)
-        self.free = USABLE * free
-        self.top = min(self.free, USABLE * mechanical)
+        self.no_load_speed = USABLE * free
+        self.speed_max = min(self.no_load_speed, USABLE * mechanical)
         boost = gear.ratio * gear.efficiency
-        self.stall = USABLE * boost * voltage / motor.resistance * k_t
-        self.limit = USABLE * min(boost * motor.peak_torque, gear.torque_max)
+        self.stall_torque = USABLE * boost * voltage / motor.resistance * k_t
+        self.torque_limit = USABLE * min(boost * motor.peak_torque, gear.torque_max)
         self._tabulate(points)
 
     def _tabulate(self, points):
         """Tabulate time and angle per inertia up to a peak speed and down to rest."""
-        peak = self.free * (1.0 - np.exp(-(np.linspace(0.0, 16.0, points) ** 2) / 8.0))
-        peak = np.append(peak[peak < self.top], min(self.top, self.free * (1.0 - 1e-14)))
+        peak = self.no_load_speed * (1.0 - np.exp(-(np.linspace(0.0, 16.0, points) ** 2) / 8.0))
+        peak = np.append(
+            peak[peak < self.speed_max], min(self.speed_max, self.no_load_speed * (1.0 - 1e-14))
+        )
         up, down = self._up(peak), self._down(peak)
         self.time, self.angle, self.peak = up[0] + down[0], up[1] + down[1], peak
 
     def _up(self, speed):
         """Time and angle per inertia from rest, at a torque of min(limit, stall (1 - w / free))."""
-        constant_torque = min(self.limit, self.stall)
-        bend = self.free * (1.0 - constant_torque / self.stall)
+        constant_torque = min(self.torque_limit, self.stall_torque)
+        bend = self.no_load_speed * (1.0 - constant_torque / self.stall_torque)
         first = np.minimum(speed, bend)
-        lag = self.free / self.stall
-        later = lag * np.log((self.free - first) / (self.free - np.maximum(speed, first)))
-        on_line = self.free * later - lag * (speed - first)
+        lag = self.no_load_speed / self.stall_torque
+        later = lag * np.log(
+            (self.no_load_speed - first) / (self.no_load_speed - np.maximum(speed, first))
+        )
+        on_line = self.no_load_speed * later - lag * (speed - first)
         time = first / constant_torque + later
         return time, first**2 / (2.0 * constant_torque) + on_line
 
     def _down(self, speed):
         """Time and angle per inertia to rest, at a torque of min(limit, stall (1 + w / free))."""
-        bend = self.free * max(self.limit / self.stall - 1.0, 0.0)
+        bend = self.no_load_speed * max(self.torque_limit / self.stall_torque - 1.0, 0.0)
         last = np.minimum(speed, bend)
-        lag = self.free / self.stall
-        late = lag * np.log1p(last / self.free)
-        on_line = lag * last - self.free * late
-        return late + (speed - last) / self.limit, on_line + (speed**2 - last**2) / (
-            2.0 * self.limit
+        lag = self.no_load_speed / self.stall_torque
+        late = lag * np.log1p(last / self.no_load_speed)
+        on_line = lag * last - self.no_load_speed * late
+        return late + (speed - last) / self.torque_limit, on_line + (speed**2 - last**2) / (
+            2.0 * self.torque_limit
         )
 
-    def standing(self, rims):
+    def carrier(self, rims):
         """Integrals of motor, gear, housing and foot, see `naive_module`, shape (7, n)."""
         drive = sum(
             body[:, None] * np.prod([(rims.height - o) / (own - o) for o in HEIGHTS if o != own], 0)
             for own, body in zip(HEIGHTS, self.drive_bodies, strict=True)
         )
-        shell = printed_parts(rims.outer, rims.height, self.mount, self.thick)
-        return drive + shell + screw_bodies(rims.outer, rims.height, self.thick)
+        shell = printed_parts(rims.outer, rims.height, self.mount, self.foot_plate)
+        return drive + shell + screw_bodies(rims.outer, rims.height, self.foot_plate)
 
     def wheel(self, rims):
         """Rim, web and hub: mass, inertia about the axis and across it, shape (3, n)."""
-        if not self.webbed:
+        if not self.has_web:
             return rims.body
         density = self.web_density(rims.density)
-        web = rims.web(density, self.web, self.in_web)
+        web = rims.web(density, self.web_thickness, self.web_hub)
         return rims.body + web + density * self.hub[:, None]
 
     def web_density(self, density):
         """Density of web and hub for a rim of this density [kg/m^3]."""
         return density if self.web_material is None else self.web_material.density
 
-    def seat(self, density):
+    def height_min(self, density):
         """Least height of a rim of this density, given by its web [m]."""
-        if not self.webbed:
+        if not self.has_web:
             return 0.0
-        band = max(self.web + 2.0 * self.chamfer + STEP, 4.0 * self.chamfer, self.heads)
+        band = max(
+            self.web_thickness + 2.0 * self.chamfer + STEP, 4.0 * self.chamfer, self.heads_height
+        )
         if self.web_material is None:
             return band
-        seated = self.web * max(1.0, self.web_material.density / density) + SHOULDER
+        seated = self.web_thickness * max(1.0, self.web_material.density / density) + SHOULDER
         return max(seated, band)
 
-    def turn(self, time, inertia, final):
+    def swept_angle(self, time, inertia, final):
         """Largest angle of the wheels in a time, ending at a speed, less that speed times it."""
         end_time, end_angle = self._down(final)
         units = time / inertia + end_time
@@ -158,7 +164,7 @@ class Drive:
         return np.where(peak >= final, angle * inertia - final * time, -inf)
 
 
-def speed_of(motor):
+def speed_limit(motor):
     """Highest permitted speed of a motor [rad/s]; None if unknown."""
     if motor.speed_max is not None:
         return motor.speed_max
@@ -174,7 +180,7 @@ def is_complete(motor, gear):
     figures = [motor.mass, motor.torque_constant, motor.resistance, motor.peak_torque]
     if gear.ratio > 1.0 or gear.reverses:
         figures.append(motor.rotor_inertia)
-    return None not in [*figures, speed_of(motor)]
+    return None not in [*figures, speed_limit(motor)]
 
 
 def chamfer_of(problem):
@@ -204,21 +210,21 @@ def is_buildable(problem, drive, rims, material, slack=0.0):
     """Whether rims have room for web and hub, and withstand the stress at the bore if known."""
     factor = 1.0 + slack
     seated = (rims.inner * factor >= drive.hub_radius) & (
-        rims.height * factor >= drive.seat(material.density)
+        rims.height * factor >= drive.height_min(material.density)
     )
     seated &= rims.outer * factor >= outer_radius_min(drive.mount)
     seated &= rims.height <= drive.height_max * factor
-    if drive.webbed:
-        seated &= has_room_for_holes(rims.inner * factor, drive.in_web)
+    if drive.has_web:
+        seated &= has_room_for_holes(rims.inner * factor, drive.web_hub)
     if material.yield_strength is None or material.poisson_ratio is None:
         return seated
     nu = material.poisson_ratio
     squares = (3.0 + nu) * rims.outer**2 + (1.0 - nu) * rims.inner**2
     stress = material.density * drive.proof_speed**2 / 4.0 * squares
     safety = problem.envelope.stress_safety
-    if drive.webbed and drive.in_web.lightening and safety:
+    if drive.has_web and drive.web_hub.lightening and safety:
         # Stress concentration at the edge of a hole.
-        safety = max(safety, {5: 6.5, 6: 6.5, 7: 8.0, 8: 8.0}[drive.in_web.lightening])
+        safety = max(safety, {5: 6.5, 6: 6.5, 7: 8.0, 8: 8.0}[drive.web_hub.lightening])
     return seated & (stress * safety <= material.yield_strength * factor)
 
 
@@ -270,7 +276,7 @@ def margin(problem, drive, rims, angle):
         demand = (
             inertia / shares + np.abs(coupling) / shares[::-1]
         ) * problem.requirement.rate_change
-        worst = np.minimum(worst, (2.0 * spin * drive.top / demand).min(axis=0))
+        worst = np.minimum(worst, (2.0 * spin * drive.speed_max / demand).min(axis=0))
     return worst
 
 
@@ -294,7 +300,7 @@ def _maneuver_margin(problem, drive, rims, maneuver, spin, angle):
     own = compliance[0, 0] * (row == 0) + compliance[1, 1] * (row == 1)
     load = drive.wheel(rims)[1] + drive.rotor_load - spin**2 * (own + ratio * compliance[0, 1])
     final = np.abs(wheels_of(left / levers)).max(axis=0)
-    possible = drive.turn(time, np.maximum(load, 1e-15), final)
+    possible = drive.swept_angle(time, np.maximum(load, 1e-15), final)
     busy = np.abs(busy)
     ratio = np.divide(possible, busy, out=np.where(possible >= 0.0, inf, 0.0), where=busy > 0.0)
     return np.where(load > 0.0, ratio, 0.0)
@@ -311,7 +317,7 @@ def chord_of(maneuver):
 
 def device_mass(drive, rims):
     """Mass of both modules [kg]."""
-    return 2.0 * (drive.wheel(rims)[0] + drive.standing(rims)[0])
+    return 2.0 * (drive.wheel(rims)[0] + drive.carrier(rims)[0])
 
 
 def inertia_on(problem, drive, rims, angle):
@@ -329,10 +335,10 @@ def coupling_on(problem, drive, rims, angle):
 
 def _tensor(problem, drive, rims, angle):
     """Braked inertia of robot and modules about the common centre of mass, shape (3, 3, n)."""
-    module = revolved_body(*drive.wheel(rims)) + drive.standing(rims)
+    module = revolved_body(*drive.wheel(rims)) + drive.carrier(rims)
     mass, along, up, across, axis, upright, aslant = module
     robot, place = problem.robot, problem.place
-    size = rims.outer, rims.height, drive.motor, drive.gear, drive.thick
+    size = rims.outer, rims.height, drive.motor, drive.gear, drive.foot_plate
     reach, standing = swept_size(*size)
     x, y, z = (o + d * reach for o, d in zip(place.origins[0], place.outward[0], strict=True))
     z = z + standing if place.upright else z

@@ -57,7 +57,7 @@ def _coarse(problem):
         drive = Drive(problem, motor, gear)
         for material in problem.materials:
             names = (motor.name, gear.name, material.name)
-            axes = _axes(problem, drive.seat(material.density))
+            axes = _axes(problem, drive.height_min(material.density))
             device = _lightest(problem, drive, material, names, axes, 1.35 * lightest)
             if device is not None:
                 lightest = min(lightest, device.mass)
@@ -83,7 +83,7 @@ def refine(problem, device):
     """The lightest device on narrowing grids around a given one."""
     widths = np.array([0.08, 0.12, 0.2, 0.2])
     while widths[-1] > NARROW:
-        seat = device.drive.seat(device.material.density)
+        seat = device.drive.height_min(device.material.density)
         axes = _axes_around(problem, device.point, widths, seat)
         better = _lightest(
             problem, device.drive, device.material, device.names, axes, device.mass * (1.0 - 1e-9)

@@ -58,22 +58,22 @@ def lightest_mass(problem, device, envelope, stress):
     drive, chamfer = Drive(problem, device.motor, device.gear), chamfer_of(problem)
     density, nu = device.material.density, device.material.poisson_ratio
     web_density = drive.web_density(density)
-    disc = (web_density, drive.web, drive.in_web) if drive.webbed else ()
+    disc = (web_density, drive.web_thickness, drive.web_hub) if drive.has_web else ()
     inertia = device.spin_inertia - drive.rotor_momentum - web_density * drive.hub[1]
     radius = device.outer_radius
 
     def rims(x):
         outer, inner = radius * x
-        web = Rims(outer, inner, 0.0, density).web(*disc)[1] if drive.webbed else 0.0
+        web = Rims(outer, inner, 0.0, density).web(*disc)[1] if drive.has_web else 0.0
         edges = Rims(outer, inner, 0.0, density, chamfer).body[1]
         height = 2.0 * (inertia - web - edges) / (np.pi * density * (outer**4 - inner**4))
         return Rims(outer, inner, height, density, chamfer)
 
     def mass(x):
         rim = rims(x)
-        web = rim.web(*disc) + web_density * drive.hub if drive.webbed else np.zeros(3)
+        web = rim.web(*disc) + web_density * drive.hub if drive.has_web else np.zeros(3)
         one = Rims(*np.array([[rim.outer], [rim.inner], [rim.height]]), density, chamfer)
-        return rim.body[0] + web[0] + drive.standing(one)[0, 0]
+        return rim.body[0] + web[0] + drive.carrier(one)[0, 0]
 
     def margins(x):
         rim = rims(x)
@@ -84,7 +84,7 @@ def lightest_mass(problem, device, envelope, stress):
                 1.0 - rim.outer / envelope.outer_radius_max,
                 rim.inner / max(envelope.inner_radius_min, drive.hub_radius) - 1.0,
                 1.0 - rim.height / envelope.height_max,
-                rim.height / max(envelope.height_min, drive.seat(density)) - 1.0,
+                rim.height / max(envelope.height_min, drive.height_min(density)) - 1.0,
                 (rim.outer - rim.inner) / envelope.wall_min - 1.0,
                 1.0 - rim.body[0] / envelope.mass_max,
                 1.0 - hoop_stress / stress,
@@ -139,7 +139,7 @@ def test_active_limits_have_a_price(solution):
 
 def test_the_wheel_speed_is_limited_by_reserve_and_mechanics(solution):
     problem, device, sized = solution
-    top = Drive(problem, device.motor, device.gear).top
+    top = Drive(problem, device.motor, device.gear).speed_max
     assert sized.wheel_speed_max == pytest.approx(top, rel=1e-12)
 
 
