@@ -88,13 +88,11 @@ def test_the_landing_shock_that_the_floor_of_a_cage_withstands():
     """A plate under the moment of motor and wheel, clamped by the posts along half of its edge."""
     caged = DEVICES["caged"]
     shock, cage = joints_by_name(caged)["landing shock, cage"], motor_mount(caged).cage
-    moment_per_acceleration = (
-        caged.motor.mass * cage.motor_length / 2.0 + caged.flywheel.mass * cage.seat
-    )
+    mass_moment = caged.motor.mass * cage.motor_length / 2.0 + caged.flywheel.mass * cage.seat
     circle = cage.holes.screws
     radius = circle.radius + screw(circle.thread).head_diameter / 2.0
     ring = (cage.bore**2 - radius**2) / (cage.bore**2 + radius**2)
-    stress = 3.0 * moment_per_acceleration * shock.capacity * ring / (pi * radius * cage.floor**2)
+    stress = 3.0 * mass_moment * shock.capacity * ring / (pi * radius * cage.floor**2)
     assert 2.0 * stress == pytest.approx(47e6)
     assert shock.margin > 1.0
 

@@ -42,9 +42,8 @@ def test_solo12_simultaneous():
 
 def test_weighted_includes_the_criterion_of_the_paper():
     incidences = incidence_by_criterion(STANCE, 3.0 * np.diag(STANCE)[:2])
-    assert incidences[Criterion.WEIGHTED] == pytest.approx(
-        incidences[Criterion.EQUAL_RATE], rel=1e-15
-    )
+    expected = incidences[Criterion.EQUAL_RATE]
+    assert incidences[Criterion.WEIGHTED] == pytest.approx(expected, rel=1e-15)
 
 
 def test_single_axes():

@@ -66,10 +66,8 @@ def body(solo12, index):
         joint = "<freejoint/>"
     else:
         axis = {"JointModelRX": "1 0 0", "JointModelRY": "0 1 0"}[model.joints[index].shortname()]
-        coordinate = model.joints[index].idx_q
-        joint_range = numbers(
-            [model.lowerPositionLimit[coordinate], model.upperPositionLimit[coordinate]]
-        )
+        q = model.joints[index].idx_q
+        joint_range = numbers([model.lowerPositionLimit[q], model.upperPositionLimit[q]])
         joint = f'<joint name="{model.names[index]}" axis="{axis}" range="{joint_range}"/>'
     geoms = [
         geom(shape, visual=kind is pin.GeometryType.VISUAL)

@@ -86,15 +86,8 @@ def test_no_motor_acts_about_an_axis_perpendicular_to_the_wheels(folder):
 @pytest.mark.slow
 def test_two_motors_that_are_both_too_weak(folder):
     """A robot four times as heavy as Solo12: more time or a stronger motor would suffice."""
-    arguments = (
-        "--mass",
-        "10",
-        "--inertia",
-        "0.3,0.45,0.5",
-        "--motor",
-        f"{TOO_WEAK}, MN4014 KV400",
-    )
-    error = refused(*arguments, *ONE_MATERIAL)
+    robot = ("--mass", "10", "--inertia", "0.3,0.45,0.5")
+    error = refused(*robot, "--motor", f"{TOO_WEAK}, MN4014 KV400", *ONE_MATERIAL)
     assert error["binding"] == ["torque"]
     pattern = r"None of 2 motors can do it at 24 V with \d wheels; MN4014 KV400 comes closest"
     assert re.search(pattern, error["message"])
@@ -140,7 +133,5 @@ def test_a_refusal_has_warnings_assumptions_and_default_maneuvers(odd_robot):
     assert len(heights) == 1, "said once"
     assert "falls from" not in error["hint"]
     time_given = float(re.search(r"([\d.]+) s given", error["message"])[1]) + 0.0005
-    additional_height = (error["relaxations"]["time"] ** 2 - 1.0) * 9.81 / 2.0 * time_given**2
-    assert 1.0 + additional_height <= float(heights[0]) <= 1.01 * (1.0 + additional_height), (
-        "rounded to the safe side"
-    )
+    height = 1.0 + (error["relaxations"]["time"] ** 2 - 1.0) * 9.81 / 2.0 * time_given**2
+    assert height <= float(heights[0]) <= 1.01 * height, "rounded to the safe side"

@@ -18,10 +18,8 @@ def test_the_file_reads_as_the_specification_of_the_robot(folder):
     assert run("init", SOLO12).code == 0
     specification = read_specification(folder / "solo12.toml")
     assert Path(specification.robot.file).samefile(SOLO12)
-    assert (
-        replace(specification, robot=replace(specification.robot, file=SOLO12))
-        == SOLO12_SPECIFICATION
-    )
+    solo12 = replace(specification.robot, file=SOLO12)
+    assert replace(specification, robot=solo12) == SOLO12_SPECIFICATION
 
 
 def test_options_are_written_to_the_file(folder):

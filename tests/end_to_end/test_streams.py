@@ -116,17 +116,15 @@ def in_a_pipe(command, *options):
     return run(command, *options, piped=True)
 
 
-@pytest.mark.parametrize(("arguments", "expected_word"), ANSWERS)
+@pytest.mark.parametrize(("arguments", "word"), ANSWERS)
 def test_answers_go_to_standard_output_and_messages_to_standard_error(
-    folder, by_hand, arguments, expected_word
+    folder, by_hand, arguments, word
 ):
     """A pipe gets no frames, colours or broken lines, and one document with --json."""
-    command = [
-        str(by_hand) if expected_word == "DESIGN" else expected_word for expected_word in arguments
-    ]
+    command = [str(by_hand) if argument == "DESIGN" else argument for argument in arguments]
     piped = in_a_pipe(*command)
     assert piped.code == 0, piped.output
-    assert expected_word in piped.stdout
+    assert word in piped.stdout
     assert not FRAMES.search(piped.stdout + piped.stderr)
     assert not [line for line in piped.stdout.splitlines() if line != line.rstrip()]
     assert all(PROGRESS.fullmatch(line) for line in piped.stderr.splitlines())

@@ -207,17 +207,13 @@ def certified(specification, *options):
 def test_a_certificate_is_in_design_and_report_and_can_be_repeated(folder):
     result = certified(DROP, *BY_HAND, *BOUND, "--seed", "3")
     assert result.code == 0
-    reliability = result.document["reliability"]
-    assert reliability == json.loads(Path("ocs/design.json").read_text())["reliability"]
-    assert (reliability["verdict"], reliability["samples"], reliability["round"]) == (
-        "certified",
-        152,
-        1,
-    )
-    assert (reliability["seed"], reliability["first"]) == (3, ROUND_STRIDE)
+    outcome = result.document["reliability"]
+    assert outcome == json.loads(Path("ocs/design.json").read_text())["reliability"]
+    assert (outcome["verdict"], outcome["samples"], outcome["round"]) == ("certified", 152, 1)
+    assert (outcome["seed"], outcome["first"]) == (3, ROUND_STRIDE)
     assert "certified for 99 %: 152 of 152 pass" in Path("ocs/report.html").read_text()
     record = json.loads(Path("ocs/certificate/monte_carlo.json").read_text())
-    assert record["certificate"] == reliability
+    assert record["certificate"] == outcome
     case = next(Path("ocs/certificate/worst").glob("drop-*.json"))
     repeated = run("validate", "ocs", "--replay", case, "--json").document
     metrics = json.loads(case.read_text())["metrics"]["drop"]

@@ -31,9 +31,8 @@ def screws(device):
 
 def test_the_total_shows_where_a_design_has_no_screws():
     device = housed_device(None)
-    without_screws = replace(
-        device, carrier=replace(device.carrier, mass=device.carrier.mass - 0.0025)
-    )
+    carrier = replace(device.carrier, mass=device.carrier.mass - 0.0025)
+    without_screws = replace(device, carrier=carrier)
     total = bill_csv(without_screws).splitlines()[-1]
     assert total.startswith(f"total,,,,,{1e3 * device.mass:.3f},")
     assert f"design.json states {1e3 * without_screws.mass:.3f} g" in total

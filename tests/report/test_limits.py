@@ -106,13 +106,8 @@ def test_the_tightest_limits_come_first_with_equal_ones_together():
 
 
 def test_only_assumptions_that_users_change_are_listed():
-    assumptions = (
-        "Maneuvers: the paper's three.",
-        "drop: falls from 1 m.",
-        "Supply: 24 V.",
-        "Edges: x.",
-    )
-    assert assumption_rows(assumptions) == (("drop", "falls from 1 m"), ("supply", "24 V"))
+    listed = "Maneuvers: the paper's three.", "drop: falls from 1 m.", "Supply: 24 V.", "Edges: x."
+    assert assumption_rows(listed) == (("drop", "falls from 1 m"), ("supply", "24 V"))
 
 
 def test_alternatives_are_sorted_by_their_savings():

@@ -64,10 +64,8 @@ def test_a_reliability_beyond_the_samples_raises_a_warning(reliability, count):
         maneuvers=(), costs=(), curve=(),
     )  # fmt: skip
     reserved = replace(sized, selection=replace(sized.selection, kept=reserve))
-    assert (
-        len(warnings_with(reserved, f"{100.0 * reliability:g} % of robots is set by the worst"))
-        == count
-    )
+    words = f"{100.0 * reliability:g} % of robots is set by the worst"
+    assert len(warnings_with(reserved, words)) == count
 
 
 def test_controllers_are_not_in_the_mass():

@@ -67,7 +67,7 @@ def hanging_legs(parent="trunk", **hips):
     ]
 
 
-def pair_of_limbs(parts, height=0.1, aside=0.2, parent="trunk", words=("thigh", "shank", "foot")):
+def limb_pair(parts, height=0.1, aside=0.2, parent="trunk", words=("thigh", "shank", "foot")):
     """A limb on the left and one on the right."""
     sides = ("l", aside), ("r", -aside)
     return [
@@ -158,19 +158,16 @@ FOUR_WHEELS = with_wheels(2, **{name: (*at, 0.0) for name, at in CORNERS.items()
 UNAMBIGUOUS = {
     **{zero: (quadruped(*parts), ALL_FEET) for zero, parts in ZEROS.items()},
     "a second pair on a torso is arms": (
-        [TRUNK, *TORSO, *pair_of_limbs(ZEROS["hanging"], 0.3, parent="torso"), *PAIR],
+        [TRUNK, *TORSO, *limb_pair(ZEROS["hanging"], 0.3, parent="torso"), *PAIR],
         ["a_foot", "b_foot"],
     ),
     "limbs of prismatic joints alone are no legs": ([TRUNK, *sliding_limbs()], []),
     "six, the middle ones longer": (hexapod("hanging", f=1.0, m=1.15, h=1.0), SIX_FEET),
     "six that are level": (hexapod("level, knees outwards", f=1.0, m=1.15, h=1.0), SIX_FEET),
     "wheels on legs": (FOUR_WHEELS, [f"{name}_wheel" for name in CORNERS]),
-    "limbs named as arms": (
-        [TRUNK, *pair_of_limbs(OUTWARDS, words=("arm", "forearm", "hand"))],
-        [],
-    ),
+    "limbs named as arms": ([TRUNK, *limb_pair(OUTWARDS, words=("arm", "forearm", "hand"))], []),
     "fins that hang like legs": (
-        [TRUNK, *pair_of_limbs(ZEROS["hanging"], 0.0, 0.1, words=("fin", "fintip", "fin_end"))],
+        [TRUNK, *limb_pair(ZEROS["hanging"], 0.0, 0.1, words=("fin", "fintip", "fin_end"))],
         [],
     ),
     "a hip that follows the other one": (hips_that_follow(), ["left_foot", "right_foot"]),
@@ -198,7 +195,7 @@ AMBIGUOUS = {
         "",
     ),
     "limbs high above the centre of mass": (
-        pair_of_limbs(ZEROS["hanging"], 1.0, 0.1),
+        limb_pair(ZEROS["hanging"], 1.0, 0.1),
         ["l_foot", "r_foot"],
         "",
     ),
@@ -223,7 +220,7 @@ AMBIGUOUS = {
         "fl_foot, fr_foot",
     ),
     "one leg beside arms": (
-        [*hanging_legs(right=(0.0, -0.1, 0.0)), *pair_of_limbs(OUTWARDS, words=ARM)],
+        [*hanging_legs(right=(0.0, -0.1, 0.0)), *limb_pair(OUTWARDS, words=ARM)],
         ["right_foot"],
         "it is not the robot's only limb",
     ),

@@ -22,9 +22,8 @@ def roll_to_pitch(mass_properties):
 
 def test_the_ratio_spans_the_range_of_the_theory(rows):
     """tan alpha* (docs/theory.md) rises with abduction; 40 degrees belong to 0.75 to 1 rad."""
-    ratios = [
-        roll_to_pitch(rows[f"legs spread by {angle} rad"]) for angle in ("0.25", "0.5", "0.75", "1")
-    ]
+    angles = ("0.25", "0.5", "0.75", "1")
+    ratios = [roll_to_pitch(rows[f"legs spread by {angle} rad"]) for angle in angles]
     assert (np.diff(ratios) > 0.0).all()
     assert ratios[2] < np.tan(np.radians(40.0)) < ratios[3]
     assert min(map(roll_to_pitch, rows.values())) > 0.44

@@ -63,24 +63,20 @@ def test_a_wrong_path_suggests_another(tmp_path: Path, name, message, hint):
 
 
 @pytest.mark.parametrize(
-    ("files", "suggested"),
+    ("files", "robot"),
     [
         (("package.xml", "launch/view.launch.xml", "robots/b.xacro", "urdf/a.urdf"), "urdf/a.urdf"),
         (("package.xml", "urdf/a.urdf", "urdf/arm/hand.urdf", "z.xml"), "z.xml"),
         (("package.xml", ".git/a.urdf", "src/deep/a.urdf"), ""),
     ],
 )
-def test_the_robot_of_a_package_is_suggested(tmp_path: Path, files, suggested):
+def test_the_robot_of_a_package_is_suggested(tmp_path: Path, files, robot):
     for file in files:
         (tmp_path / file).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / file).write_bytes(TWO_LINKS)
     with pytest.raises(RobotError, match="is a folder") as caught:
         read_source(tmp_path)
-    hint = (
-        f"give a file, such as {tmp_path / suggested}"
-        if suggested
-        else "give the URDF or MJCF file"
-    )
+    hint = f"give a file, such as {tmp_path / robot}" if robot else "give the URDF or MJCF file"
     assert caught.value.hint.startswith(hint)
 
 

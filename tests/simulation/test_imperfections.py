@@ -41,10 +41,10 @@ PERFECT = Imperfections(
 STEP, HOLD, INERTIA = 1e-3, 5, 7e-5
 
 
-def drives(*imperfections, instants=2000):
+def drives(*samples, instants=2000):
     return ImperfectDrives(
-        imperfections,
-        response=np.full(len(imperfections), 1.0 / INERTIA),
+        samples,
+        response=np.full(len(samples), 1.0 / INERTIA),
         instants=instants,
         hold=HOLD,
         step=STEP,

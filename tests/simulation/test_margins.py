@@ -43,9 +43,8 @@ def planned(speed):
     wheel_speed = np.broadcast_to([speed, 0.0], (TIME.size, 2))
     zeros = np.zeros((TIME.size, 3))
     vertical = np.broadcast_to([0.0, 0.0, 1.0], (TIME.size, 3))
-    return Reference(
-        Trajectory(TIME, vertical, zeros, zeros, wheel_speed, 0.0 * wheel_speed, ""), ""
-    )
+    plan = Trajectory(TIME, vertical, zeros, zeros, wheel_speed, 0.0 * wheel_speed, "")
+    return Reference(plan, "")
 
 
 def test_margins_include_the_landing():

@@ -75,7 +75,7 @@ def stepped(physics, models, start, control):
     return states, sensors
 
 
-def largest_difference(actual, expected):
+def difference(actual, expected):
     """Largest difference, relative to the largest value of each column."""
     scale = np.maximum(np.abs(expected).max(axis=(0, 1)), 1e-3)
     return (np.abs(actual - expected) / scale).max()
@@ -93,21 +93,19 @@ def test_every_world_has_its_own_parameters_commands_and_pushes(engine, flying, 
     with Rollout(nthread=0) as pool, engine.physics() as physics:
         states, sensors = stepped(pool, models, start, control)
         single = stepped(physics, models, start, control)
-        assert largest_difference(single[0], states) < TOLERANCE
-        assert largest_difference(single[1], sensors) < TOLERANCE
+        assert difference(single[0], states) < TOLERANCE
+        assert difference(single[1], sensors) < TOLERANCE
         # Fewer worlds, later: the remaining ones continue from the given states.
         fewer = stepped(physics, models[:2], states[:2, -1], control[:2])
-        assert (
-            largest_difference(fewer[0], stepped(pool, models[:2], states[:2, -1], control[:2])[0])
-            < TOLERANCE
-        )
+        expected = stepped(pool, models[:2], states[:2, -1], control[:2])
+        assert difference(fewer[0], expected[0]) < TOLERANCE
         # With parameters or controls of another world the difference is a hundred times as large.
         for other in (
             stepped(pool, models[:1] * COUNT, start, control),
             stepped(pool, models, start, np.roll(control, 1, axis=0)),
             stepped(pool, models, start, np.roll(control, 1, axis=1)),
         ):
-            assert largest_difference(other[0], states) > 100 * TOLERANCE
+            assert difference(other[0], states) > 100 * TOLERANCE
 
 
 @pytest.mark.slow

@@ -51,15 +51,12 @@ def test_the_law_uses_the_inertia_of_robot_rims_and_carriers(
 ):
     """For a flip the modules are turned by hand, with their carriers."""
     spin = device.flywheel.spin_inertia
-    for maneuver, turned_device in (
-        (maneuvers[0], device),
-        (maneuvers[2], device.at_incidence(0.0)),
-    ):
+    for maneuver, placed in ((maneuvers[0], device), (maneuvers[2], device.at_incidence(0.0))):
         body = any_builder.flight(maneuver, Wheels.ACTIVE).body
-        expected = braked_inertia(solo12, turned_device).inertia
+        expected = braked_inertia(solo12, placed).inertia
         np.testing.assert_allclose(body.inertia, expected, rtol=0, atol=1e-9 * np.trace(expected))
         reacting = spin**2 / (spin + device.motor.armature)
-        actuated = expected - reacting * turned_device.axes @ turned_device.axes.T
+        actuated = expected - reacting * placed.axes @ placed.axes.T
         np.testing.assert_allclose(body.actuated_inertia, actuated, atol=1e-9)
         assert (body.spin_inertia, body.armature) == (spin, device.motor.armature)
 

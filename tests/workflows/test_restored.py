@@ -43,13 +43,8 @@ def through_json(record):
 
 
 def check_same(restored, robot):
-    assert restored.posture == robot.posture
-    assert (restored.trunk, restored.name, restored.sha256) == (
-        robot.trunk,
-        robot.name,
-        robot.sha256,
-    )
-    assert restored.mass == robot.mass
+    for name in ("posture", "trunk", "name", "sha256", "mass"):
+        assert getattr(restored, name) == getattr(robot, name)
     ours, theirs = (
         [text for text in either.warnings if text.startswith(OUTSIDE)]
         for either in (restored, robot)
@@ -199,14 +194,9 @@ def test_a_wheel_law_that_cannot_be_flown_is_refused(change):
 
 
 def test_a_vector_of_the_wrong_length_is_refused():
-    parameters = {
-        "takeoff_velocity": (0.5, 2.4),
-        "torque": (0.2, 0.8),
-        "onset": 0.1,
-        "duration": 0.05,
-    }
+    push = {"takeoff_velocity": (0.5, 2.4), "torque": (0.2, 0.8), "onset": 0.1, "duration": 0.05}
     with pytest.raises(OcsError, match="torque of a disturbance cannot be"):
-        recorded("disturbance", parameters).maneuver()
+        recorded("disturbance", push).maneuver()
 
 
 def test_a_turn_is_restored_with_its_end():

@@ -545,12 +545,12 @@ def test_a_wheel_of_unknown_speed_has_no_safety_chapter():
     ],
 )
 def test_the_spin_test_stays_within_the_speed_limit_of_the_motor(allowed, words):
-    no_load_speed = 10000.0 * np.pi / 30.0
+    speed = 10000.0 * np.pi / 30.0
     device = next(iter(DEVICES.values()))
     motor = replace(
         device.motor,
-        no_load_speed=no_load_speed,
-        speed_max=allowed * no_load_speed,
+        no_load_speed=speed,
+        speed_max=allowed * speed,
         bus_voltage=24.0,
         gear="direct",
     )
@@ -561,7 +561,7 @@ def test_the_spin_test_stays_within_the_speed_limit_of_the_motor(allowed, words)
     assert words in text
     # Faster than the limit that the wiring sets.
     assert ("Raise the controller's speed limit" in text) == (allowed > 1.0)
-    part, factor = yield_margin(driven, min(1.1, allowed) * no_load_speed)
+    part, factor = yield_margin(driven, min(1.1, allowed) * speed)
     assert f"yield strength is then {factor:.1f} times the largest stress, in {part}." in text
 
 
