@@ -135,7 +135,7 @@ FAULTS = {
         lambda r: (scaled(r, "mass", 1e3), scaled(r, "inertia", 1e3)),
         "the robot weighs .* as dense as solid metal", ""),
     "one mass in grams": (
-        lambda r: scaled(r, "mass", 1e3, "FL_shank"), "in solid steel", "FL_shank"),
+        lambda r: scaled(r, "mass", 1e3, "FL_shank"), "shapes in steel", "FL_shank"),
     "every mass in tonnes": (
         lambda r: (scaled(r, "mass", 1e-3), scaled(r, "inertia", 1e-3)),
         "the robot weighs .* as light as air", ""),
