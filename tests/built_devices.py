@@ -10,7 +10,7 @@ from ocs_design.catalogue.motors import motor
 from ocs_design.device.device import Device, Module, Web
 from ocs_design.device.solids import foot_of
 from ocs_design.parts.carrier_plate import CarrierPlate, Mast
-from ocs_design.parts.module import standing
+from ocs_design.parts.module import carrier_of
 from ocs_design.parts.moments import cylinder_mass
 from ocs_design.parts.motor_mount import hub_of
 from ocs_design.parts.rim import WEB_THICKNESS
@@ -35,7 +35,7 @@ def housed_device(
         EC45, mounting=mounting, mass=caged_motor.mass, diameter=caged_motor.diameter,
         length=caged_motor.length, torque_constant=0.028,
     )  # fmt: skip
-    carrier = standing(caged_motor, DIRECT, wheel.outer_radius, wheel.height, guard_wall)
+    carrier = carrier_of(caged_motor, DIRECT, wheel.outer_radius, wheel.height, guard_wall)
     device = driven_device(drive=drive, carrier=carrier)
     return replace(device, flywheel=wheel, guard_wall=guard_wall)
 

@@ -20,7 +20,7 @@ from ocs_design.common.units import format_quantity
 from ocs_design.device.device import Device
 from ocs_design.device.records.design import OcsDesign
 from ocs_design.device.solids import foot_of
-from ocs_design.parts.module import standing
+from ocs_design.parts.module import carrier_of
 from ocs_design.parts.motor_mount import hub_of
 from ocs_design.parts.rim import HoleRing, hoop_stress, stored_energy, wheel_body
 from ocs_design.parts.solids import Carrier
@@ -252,7 +252,7 @@ def _carrier_figures(device: Device) -> Iterator[_Figure]:
     if recorded.mass == 0.0:
         return
     gear = replace(DIRECT, mass=motor.gear_mass, room=motor.gear_room)
-    computed = standing(
+    computed = carrier_of(
         motor,
         gear,
         wheel.outer_radius,

@@ -154,7 +154,7 @@ def _support_rows(device: Device) -> Iterator[BillRow]:
             f"neck {_mm(2.0 * plate.neck)}; "
             f"{len(plate.feet) // len(plate.rows)} threads {plate.foot_thread} for the feet"
         )
-        mass = plate_part(plate.each[0]).mass()
+        mass = plate_part(plate.single_plates[0]).mass()
         yield BillRow("plate under the feet", len(plate.rows), of, size, mass, made, piece="plate")
         mast, under = plate.mast, "plate"
         tube = f"tube {_mm(2.0 * plate.sleeve_radius)} x {_mm(plate.sleeve_wall)} wall"

@@ -39,7 +39,7 @@ def plate_pieces(device: Device) -> Mapping[str, Part]:
     if plate.mast is None:
         return {"plate": plate_part(plate)}
     # The plates on a mast's arms are alike, so one is enough.
-    pieces = {"plate": plate_part(plate.each[0]), "mast": mast_part(plate, plate.mast)}
+    pieces = {"plate": plate_part(plate.single_plates[0]), "mast": mast_part(plate, plate.mast)}
     return pieces if plate.relief is None else {**pieces, BLOCK: block_part(plate, plate.relief)}
 
 

@@ -112,7 +112,8 @@ def device_bytes(device: Device) -> bytes:
         # The first body has all plates; here each is a separate piece.
         _, *others = plate_bodies(plate)
         bodies = [
-            (plate_part(each), Placement(np.eye(3), np.array(each.position))) for each in plate.each
+            (plate_part(each), Placement(np.eye(3), np.array(each.position)))
+            for each in plate.single_plates
         ]
         bodies += [(part, on_trunk @ at) for part, at in others]
         for part, place in bodies:

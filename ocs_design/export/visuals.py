@@ -22,7 +22,7 @@ from ocs_design.parts.dog_bone import directions
 from ocs_design.parts.foot import Foot, foot_part
 from ocs_design.parts.housing import guard_ring, housing_parts
 from ocs_design.parts.pedestal import Pedestal, pedestal_part
-from ocs_design.parts.solids import HERE, Part
+from ocs_design.parts.solids import ORIGIN, Part
 from ocs_design.robot.tree import ShapeKind
 
 WHEEL_MESH = "meshes/ocs_flywheel.stl"
@@ -115,7 +115,7 @@ def still_visuals(device: Device, module: Module | None) -> tuple[Visual, ...]:
     """
     if module is None:
         under = {"plate": device.plate, "pedestal": device.pedestals}
-        return tuple(_mesh(name, HERE) for name, there in under.items() if there)
+        return tuple(_mesh(name, ORIGIN) for name, there in under.items() if there)
     if device.wheels_alone:
         return ()
     foot, turn, cage = foot_of(device), carrier_placement(module), motor_mount(device).cage

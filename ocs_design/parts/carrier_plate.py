@@ -217,7 +217,7 @@ class CarrierPlate:
         return tuple(replace(self.shape, x=row) for row in self.rows)
 
     @property
-    def each(self) -> tuple["CarrierPlate", ...]:
+    def single_plates(self) -> tuple["CarrierPlate", ...]:
         """Every plate on its own, with its own screws."""
         x, y, z = self.position
         trunk = () if self.mast else self.trunk
@@ -282,7 +282,7 @@ class CarrierPlate:
             return self.sleeves
         around = self.screw.clearance_hole / 2.0 * directions(_AROUND)
         thick = (float(relief.height(*(around + hole).T).max()) for hole in self.trunk)
-        return tuple(max(0.0, each - mast.spacer) for each in thick)
+        return tuple(max(0.0, thickness - mast.spacer) for thickness in thick)
 
     @property
     def slopes(self) -> FloatArray:
@@ -328,7 +328,7 @@ class CarrierPlate:
     def screw_lengths(self) -> tuple[float, ...]:
         """Length of each of the trunk's screws under its head [m]."""
         return tuple(
-            self.screw.length_through(self.clamped + each, self.thread_depth) for each in self.gaps
+            self.screw.length_through(self.clamped + gap, self.thread_depth) for gap in self.gaps
         )
 
     @property
@@ -454,7 +454,9 @@ def plate_part(plate: CarrierPlate) -> Part[float]:
 def mast_part(plate: CarrierPlate, mast: Mast) -> Part[float]:
     """The mast's tubes, welded, with the holes for its screws, in the plate's frame."""
     half, bore = mast.side / 2.0, mast.side / 2.0 - mast.wall
-    tube, inside = (Rectangle(-each, each, -each, each) for each in (half, bore))
+    tube, inside = (
+        Rectangle(-half_width, half_width, -half_width, half_width) for half_width in (half, bore)
+    )
     # Faces that touch must coincide to the last bit: otherwise meshes separate and holes stay shut.
     face, far = mast.face, mast.side - mast.wall
     upright = Rectangle(mast.back, face, -half, half)

@@ -80,7 +80,7 @@ STANDING = Placement(UPRIGHT, np.zeros(3))
 """The wheel's axes in the foot's frame: x forward in both, z along the wheel's axis, y down."""
 
 
-def larger(one: Real, other: Real | float) -> Real:
+def elementwise_max(one: Real, other: Real | float) -> Real:
     """The larger of two, by operators alone."""
     return (one + other + abs(one - other)) / 2.0
 
@@ -117,12 +117,12 @@ class Foot(Generic[Real]):
     def half_width(self) -> Real:
         """Radius of the plate's disc [m]."""
         housing = self.housing
-        return larger(PLATE_SHARE * housing.radius, housing.mount.reach + PLATE_MARGIN)
+        return elementwise_max(PLATE_SHARE * housing.radius, housing.mount.reach + PLATE_MARGIN)
 
     @property
     def stem(self) -> Real:
         """Half the width of the plate's stem [m]."""
-        return larger(STEM_SHARE * self.housing.radius, STEEPEST * self.half_width)
+        return elementwise_max(STEM_SHARE * self.housing.radius, STEEPEST * self.half_width)
 
     @property
     def back(self) -> Real:

@@ -29,13 +29,13 @@ PIECES = 3
 FOOT, INCH, POUND_FORCE = 0.3048, 0.0254, 4.4482216152605
 """Foot [m], inch [m] and pound-force [N]: exact, international yard and pound agreement of 1959."""
 
-BRL = 672.0
+BRL_CONSTANT = 672.0
 """Constant of the formula above, with ft lbf and in."""
 
 STEP = 1e-4
 """Step of the wall thickness of rings as built [m]."""
 
-BUILT = 1.25
+BUILT_WALL_FACTOR = 1.25
 """Thickness as built, over the thickness just perforated (BC-TOP-9A)."""
 
 STEEL_STRENGTH, ALUMINIUM_STRENGTH = 360e6, 310e6
@@ -99,8 +99,10 @@ def steel_wall(energy: float, diameter: float) -> float:
         energy: of the missile [J].
         diameter: of the missile [m].
     """
-    perforated: float = (energy / (FOOT * POUND_FORCE)) ** (2.0 / 3.0) / (BRL * diameter / INCH)
-    return BUILT * perforated * INCH
+    perforated: float = (energy / (FOOT * POUND_FORCE)) ** (2.0 / 3.0) / (
+        BRL_CONSTANT * diameter / INCH
+    )
+    return BUILT_WALL_FACTOR * perforated * INCH
 
 
 @dataclass(frozen=True)

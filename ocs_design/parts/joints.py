@@ -44,41 +44,41 @@ SHEAR_SHARE = 0.577
 """Shear strength over yield strength by distortion energy: Shigley, equation 5-21."""
 
 
-def joint_preload(held: Screw, strength: str = USUAL_CLASS) -> float:
+def joint_preload(screw: Screw, strength: str = USUAL_CLASS) -> float:
     """Preload of a screw of a property class, 0.75 of its proof load [N]."""
-    return PRELOAD_SHARE * CLASSES[strength].proof * held.stress_area
+    return PRELOAD_SHARE * CLASSES[strength].proof * screw.stress_area
 
 
-def tightening_torque(held: Screw, strength: str = USUAL_CLASS) -> float:
+def tightening_torque(screw: Screw, strength: str = USUAL_CLASS) -> float:
     """Tightening torque for `joint_preload` [N m]; see `Screw.torque`."""
-    return held.torque(joint_preload(held, strength))
+    return screw.torque(joint_preload(screw, strength))
 
 
-def friction_torque(held: Screw, count: int, radius: float, strength: str = USUAL_CLASS) -> float:
+def friction_torque(screw: Screw, count: int, radius: float, strength: str = USUAL_CLASS) -> float:
     """Torque that screws on a circle carry by friction under their least preload [N m].
 
     Args:
-        held: the screw. count: of screws. radius: of their circle [m].
+        screw: the screw. count: of screws. radius: of their circle [m].
         strength: their property class.
     """
-    return FRICTION * count * joint_preload(held, strength) / TIGHTENING_FACTOR * radius
+    return FRICTION * count * joint_preload(screw, strength) / TIGHTENING_FACTOR * radius
 
 
-def shear_torque(held: Screw, count: int, radius: float, strength: str = USUAL_CLASS) -> float:
+def shear_torque(screw: Screw, count: int, radius: float, strength: str = USUAL_CLASS) -> float:
     """Torque at which screws on a circle yield in shear, if the faces slip [N m]."""
-    return SHEAR_SHARE * CLASSES[strength].yields * held.stress_area * count * radius
+    return SHEAR_SHARE * CLASSES[strength].yields * screw.stress_area * count * radius
 
 
 SCREW_TENSION, SCREW_SHEAR = 0.9 * 800e6 / 1.25, 0.6 * 800e6 / 1.25
 """Strength of class 8.8 screws over their stress area [Pa]: EN 1993-1-8, table 3.4."""
 
 
-def screw_use(held: Screw, tension: FloatArray, shear: FloatArray) -> FloatArray:
+def screw_use(screw: Screw, tension: FloatArray, shear: FloatArray) -> FloatArray:
     """Share of a screw's strength used by tension and shear [N]: EN 1993-1-8, table 3.4.
 
     F_v / F_v,Rd + F_t / (1.4 F_t,Rd), but at least F_t / F_t,Rd.
     """
-    area = held.stress_area
+    area = screw.stress_area
     pulled, sheared = tension / (SCREW_TENSION * area), shear / (SCREW_SHEAR * area)
     return np.maximum(pulled, sheared + pulled / 1.4)
 
@@ -198,13 +198,13 @@ def bell_bond_tension(
     return np.asarray(spun + elastic_modulus * strain / give)
 
 
-def bell_bond_radius(bore: FloatArray, most: float, **ring: FloatArray) -> FloatArray:
-    """Largest outer radius, up to `most` [m], of rings whose bond holds; the bore if none does.
+def bell_bond_radius(bore: FloatArray, radius_max: float, **ring: FloatArray) -> FloatArray:
+    """Largest outer radius, up to `radius_max` [m], of rings whose bond holds, else the bore.
 
     Args:
-        bore: radius [m]. most: [m]. ring: see `bell_bond_tension`.
+        bore: radius [m]. radius_max: [m]. ring: see `bell_bond_tension`.
     """
-    low, high = bore, np.maximum(bore, most)
+    low, high = bore, np.maximum(bore, radius_max)
     for _ in range(_HALVINGS):
         middle = (low + high) / 2.0
         holds = bell_bond_tension(bore, middle, **ring) <= BOND_SHARE * EPOXY_STRENGTH
@@ -287,8 +287,8 @@ def correction(
     middle = (inner + outer) / 2.0
     beside = (outer - inner) / 2.0 - chamfer - ligament
     # Narrower holes if the wall requires it.
-    hole = _whole(max(min(CORRECTION_HOLE, beside), 0.0), 0.05e-3)
-    depth = _whole(max((height - ligament) / 2.0, 0.0), 0.1e-3)
+    hole = _whole_steps(max(min(CORRECTION_HOLE, beside), 0.0), 0.05e-3)
+    depth = _whole_steps(max((height - ligament) / 2.0, 0.0), 0.1e-3)
     if hole == 0.0 or depth == 0.0:
         return Correction(middle, 0.0, 0.0, 0.0, 0.0, 0, 0.0)
     mass = 2.0 * pi * hole**2 * depth * density
@@ -300,7 +300,7 @@ def correction(
     return Correction(middle, hole, depth, mass, apart, count, most)
 
 
-def _whole(length: float, step: float) -> float:
+def _whole_steps(length: float, step: float) -> float:
     """A length rounded down to whole steps [m]."""
     return step * floor(length / step + 1e-6)
 
@@ -314,10 +314,10 @@ COLDEST, MADE, WARMEST = -10.0, 20.0, 50.0
 SEAT_ROUGHNESS = 1.6e-6
 """Arithmetic mean roughness Ra of both seats of a shrink fit, as on the drawing [m]."""
 
-_TURNED = 4.0
+_TURNING_FACTOR = 4.0
 """Rz over Ra of a triangular profile, as left by turning."""
 
-SMOOTHING = 0.8 * 2.0 * _TURNED * SEAT_ROUGHNESS
+SMOOTHING = 0.8 * 2.0 * _TURNING_FACTOR * SEAT_ROUGHNESS
 """Interference on the diameter lost to smoothing of both seats, 0.8 (Rz_i + Rz_a) [m]:
 DIN 7190-1:2017."""
 

@@ -137,7 +137,7 @@ def by_wheel(motor: AnyMotor, mount: MotorMount) -> MassMoments[float]:
     return mount.by_wheel() + drive_moments(motor).shifted(-middle, 0.0)
 
 
-def standing(
+def carrier_of(
     motor: AnyMotor,
     gear: Gear,
     outer_radius: float,

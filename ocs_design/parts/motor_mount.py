@@ -57,7 +57,7 @@ SHAFT_ROOM = 1.0e-3
 ROTOR_ROOM = HUB_WALL + SHAFT_ROOM
 """Room around the holes of a hub on a rotor [m]: its wall, and clearance to turn."""
 
-LEAST_RIM = 2.0e-3
+RIM_HEIGHT_MIN = 2.0e-3
 """Least height of a rim for which a cage must leave room [m]: flatter motors are not held by a
 cage."""
 
@@ -166,9 +166,9 @@ class MotorMount:
     def behind(self, motor: AnyMotor) -> Behind[float]:
         """Extent behind the plate, with the motor."""
         if self.bell is not None:
-            return Behind(max(each.fastening.screw.head_height for each in self.screwed), 0.0)
+            return Behind(max(screws.fastening.screw.head_height for screws in self.screwed), 0.0)
         if self.cage is not None:
-            heads = max(each.fastening.screw.head_height for each in self.screwed)
+            heads = max(screws.fastening.screw.head_height for screws in self.screwed)
             return Behind(0.0, self.cage.reach, self.cage.back + heads)
         return Behind(self.gap + (motor.length or 0.0), (motor.diameter or 0.0) / 2.0)
 
@@ -176,12 +176,12 @@ class MotorMount:
         """Moments of screws minus holes, about the middle of the outside of the floor."""
         walls = self.holes.cut_out(PANEL + self.foot_plate)
         total = walls.shifted((PANEL - self.foot_plate) / 2.0, 0.0)
-        return sum((each.moments() for each in self.screwed if not each.by_wheel), total)
+        return sum((screws.moments() for screws in self.screwed if not screws.by_wheel), total)
 
     def by_wheel(self) -> MassMoments[float]:
         """Moments of screws and of the cage's floor about the wheel's middle, without `posts`."""
         total = point(0.0) if self.cage is None else self.cage.floor_moments()
-        return sum((each.moments() for each in self.screwed if each.by_wheel), total)
+        return sum((screws.moments() for screws in self.screwed if screws.by_wheel), total)
 
 
 def mount_of(
@@ -233,7 +233,7 @@ def mount_of(
             (*wheel, held),
             foot_plate=foot_plate,
             # A shaft too short behind any rim is reported as a fault of its joint.
-            shaft_rim=through if through >= LEAST_RIM else inf,
+            shaft_rim=through if through >= RIM_HEIGHT_MIN else inf,
         )
     cage = cage_of(motor, mounting, foot_plate) if mounting.stator_face is Face.BACK else None
     if cage is None or stator is None:
@@ -273,7 +273,7 @@ def cage_of(motor: AnyMotor, mounting: Mounting, foot_plate: float) -> Cage | No
     holes = screwed_by_face(mounting, stator)
     cage = Cage(diameter / 2.0, length, holes, front, foot_plate=foot_plate)
     room_for_ears = sin(HALF_POST - _LEAST_EDGE) * cage.across > ear_radius(LID_SCREW)
-    fits = stator.reach + WALL <= cage.bore and cage.rim_height_max >= LEAST_RIM
+    fits = stator.reach + WALL <= cage.bore and cage.rim_height_max >= RIM_HEIGHT_MIN
     return cage if room_for_ears and fits else None
 
 

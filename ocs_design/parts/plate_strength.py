@@ -72,7 +72,7 @@ def plate_stresses(
     """
     if len(plate.rows) > 1:
         # On a mast all plates are alike.
-        distinct = plate.each[:1] if plate.mast else plate.each
+        distinct = plate.single_plates[:1] if plate.mast else plate.single_plates
         each = [plate_stresses(one, thicknesses, mass, height) for one in distinct]
         found: FloatArray = np.max(each, axis=0)
         return found
@@ -153,7 +153,7 @@ def plate_screws_use(plate: CarrierPlate, mass: float, height: float) -> float:
     if plate.mast is not None:
         return mast_screws_use(plate, mass, height)
     if len(plate.rows) > 1:
-        return max(plate_screws_use(each, mass, height) for each in plate.each)
+        return max(plate_screws_use(single, mass, height) for single in plate.single_plates)
     if plate.on_posts:
         return posts_use(plate, mass, height)
     places = np.array(plate.trunk) - np.mean(plate.trunk, axis=0)
@@ -198,7 +198,7 @@ def plate_sway(plate: CarrierPlate, mass: float, height: float) -> float:
     squared times l / (4 E (I + p^2 A)). The pair is a point mass.
     """
     if len(plate.rows) > 1:
-        return min(plate_sway(each, mass, height) for each in plate.each)
+        return min(plate_sway(single, mass, height) for single in plate.single_plates)
     gap, (area, _, second) = max(plate.sleeves), plate.sleeve_section
     arm, near = gap / 2.0 + plate.thickness + height, min(plate.half_pattern)
     turns = arm**2 * gap / (4.0 * (second + near**2 * area))
@@ -213,7 +213,7 @@ def plate_frequency(plate: CarrierPlate, mass: float) -> float:
     sections by `net_width`; the module is a point mass, the plate is massless.
     """
     if len(plate.rows) > 1:
-        return min(plate_frequency(each, mass) for each in plate.each)
+        return min(plate_frequency(single, mass) for single in plate.single_plates)
     start = plate.support
     across = np.linspace(start, plate.across, _SECTIONS)
     second = plate.net_width(across) * plate.thickness**3 / 12.0
@@ -238,7 +238,7 @@ def plate_tilt(plate: CarrierPlate) -> tuple[float, float]:
     foot; the compliance of a mast is left out.
     """
     if len(plate.rows) > 1:
-        bent, twisted = map(max, zip(*map(plate_tilt, plate.each), strict=True))
+        bent, twisted = map(max, zip(*map(plate_tilt, plate.single_plates), strict=True))
         return bent, twisted
     across = np.linspace(plate.support, plate.across, _SECTIONS)
     widths = plate.net_width(across)

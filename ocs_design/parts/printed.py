@@ -15,7 +15,7 @@ from ocs_design.actuation.motor import BoltCircle
 from ocs_design.common.frames import Placement
 from ocs_design.parts.moments import MassMoments, Real, point
 from ocs_design.parts.shapes import EAR_COUNT, Disc, Eared
-from ocs_design.parts.solids import HERE, Prism
+from ocs_design.parts.solids import ORIGIN, Prism
 
 WALL = 1.6e-3
 """Thickness of walls, which hold screws without infill: four lines of a 0.4 mm nozzle [m]."""
@@ -115,25 +115,25 @@ def trunk_screws(plate: float) -> Fastening:
     return Fastening(TRUNK_SCREW, TRUNK_SCREW_COUNT, through, BoltedJoint.FOOT_ON_TRUNK)
 
 
-def ear_radius(held: Screw) -> float:
+def ear_radius(ear_screw: Screw) -> float:
     """Radius of an ear's round end: a wall around the widest hole [m]."""
-    return held.clearance_hole / 2.0 + WALL
+    return ear_screw.clearance_hole / 2.0 + WALL
 
 
-def ear_axis(radius: Real, held: Screw) -> Real:
+def ear_axis(radius: Real, ear_screw: Screw) -> Real:
     """Radius of an ear's hole from the axis, so that it stays outside a band of this radius [m]."""
-    return radius + held.clearance_hole / 2.0
+    return radius + ear_screw.clearance_hole / 2.0
 
 
-def eared(radius: Real, held: Screw, first: float) -> Eared[Real]:
+def eared(radius: Real, ear_screw: Screw, first: float) -> Eared[Real]:
     """The disc of a band with ears for a screw.
 
     Args:
         radius: outer radius of the band [m].
-        held: the screw.
+        ear_screw: the screw.
         first: angle of the first ear [rad].
     """
-    return Eared(radius, ear_axis(radius, held), ear_radius(held), first)
+    return Eared(radius, ear_axis(radius, ear_screw), ear_radius(ear_screw), first)
 
 
 def ear_holes(band: Eared[Real], diameter: float, low: Real, high: Real) -> Prism[Real]:
@@ -164,7 +164,7 @@ class MountHoles:
         return self.pilot_radius if self.screws is None else self.screws.reach
 
     def prisms(
-        self, low: float, high: float, placement: Placement = HERE
+        self, low: float, high: float, placement: Placement = ORIGIN
     ) -> Iterator[Prism[float]]:
         """The holes along the z axis of `placement`, between two coordinates on it [m]."""
         if self.pilot_radius > 0.0:

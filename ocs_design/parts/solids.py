@@ -16,7 +16,7 @@ from ocs_design.parts.moments import MassMoments, Real, product
 from ocs_design.parts.outline import Outline, even_points
 from ocs_design.robot.mass import MassProperties, combine
 
-HERE = Placement.identity()
+ORIGIN = Placement.identity()
 
 THREE_POINTS = tuple(map(frozen, np.polynomial.legendre.leggauss(3)))
 """Nodes and weights of three-point Gauss quadrature on [-1, 1]."""
@@ -93,7 +93,7 @@ class Prism(Generic[Real]):
     shape: Region[Real]
     low: Real | float
     high: Real | float
-    placement: Placement = HERE
+    placement: Placement = ORIGIN
     count: int = 1
     first: float = 0.0
 
@@ -129,7 +129,7 @@ class Prism(Generic[Real]):
             xy=product(plane.xy, length),
             xz=product(plane.x, length * middle),
         )
-        if self.placement is HERE:
+        if self.placement is ORIGIN:
             return own
         turned = own.turned(self.placement.rotation)
         return turned.moved(*self.placement.position.tolist())
@@ -155,7 +155,7 @@ class Relief:
     top: float
     heights: FloatArray
     holes: tuple[tuple[float, float, float], ...] = ()
-    placement: Placement = HERE
+    placement: Placement = ORIGIN
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "heights", frozen(self.heights))

@@ -60,7 +60,7 @@ class Ring:
         )
         return moved, stressed
 
-    def _spun(self, speed: float, radius: float | FloatArray) -> tuple[FloatArray, ...]:
+    def _rotation_terms(self, speed: float, radius: float | FloatArray) -> tuple[FloatArray, ...]:
         """Displacement, radial and hoop stress due to speed alone."""
         load, nu, r = self.density * speed**2, self.poisson_ratio, np.asarray(radius)
         return (
@@ -101,15 +101,15 @@ class TurningRings:
         first, last = rings[0], rings[-1]
         if first.inner > 0.0:
             matrix[0, :2] = first._rows(first.inner)[1]
-            right[0] = -first._spun(speed, first.inner)[1]
+            right[0] = -first._rotation_terms(speed, first.inner)[1]
         else:
             matrix[0, 1] = 1.0
         matrix[-1, -2:] = last._rows(last.outer)[1]
-        right[-1] = -last._spun(speed, last.outer)[1]
+        right[-1] = -last._rotation_terms(speed, last.outer)[1]
         for at, (inside, around) in enumerate(pairwise(rings)):
             r, row, column = inside.outer, 2 * at + 1, 2 * at
             (moved, pulled), (moved_out, pulled_out) = inside._rows(r), around._rows(r)
-            own, other = inside._spun(speed, r), around._spun(speed, r)
+            own, other = inside._rotation_terms(speed, r), around._rotation_terms(speed, r)
             matrix[row, column : column + 4] = [*-moved, *moved_out]
             right[row] = gaps[at] + float(own[0] - other[0])
             matrix[row + 1, column : column + 4] = [
@@ -127,13 +127,13 @@ class TurningRings:
         """Radial displacement of one ring at a radius [m]."""
         each = self.rings[ring]
         moved = each._rows(radius)[0]
-        return float(self.constants[ring] @ moved + each._spun(self.speed, radius)[0])
+        return float(self.constants[ring] @ moved + each._rotation_terms(self.speed, radius)[0])
 
     def stresses(self, ring: int, radius: float | FloatArray) -> tuple[FloatArray, FloatArray]:
         """Radial and hoop stress in one ring [Pa]."""
         each, (a, b) = self.rings[ring], self.constants[ring]
         of_a, of_b = each._rows(radius)[1]
-        spun = each._spun(self.speed, radius)
+        spun = each._rotation_terms(self.speed, radius)
         return np.asarray(a * of_a + b * of_b + spun[1]), np.asarray(a * of_a - b * of_b + spun[2])
 
     def pressure(self, joint: int) -> float:

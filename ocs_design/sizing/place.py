@@ -7,7 +7,7 @@ import numpy as np
 
 from ocs_design.common.arrays import FloatArray, frozen, vector
 from ocs_design.device.layout import PAIR, Direction, Layout
-from ocs_design.parts.foot import Foot, larger
+from ocs_design.parts.foot import Foot, elementwise_max
 from ocs_design.parts.housing import Housing
 from ocs_design.parts.motor_mount import Behind
 from ocs_design.parts.printed import PLATE_THICKNESS, MountHoles
@@ -55,9 +55,12 @@ def module_size(
     housing: Housing[Real] = Housing(outer_radius, height, MountHoles(reach))
     foot: Foot[Real] = Foot(housing, foot_plate)
     housing_reach = (housing.radius**2 + housing.half_height**2) ** 0.5
-    depth = larger(foot.back + behind.depth, behind.from_wheel)
+    depth = elementwise_max(foot.back + behind.depth, behind.from_wheel)
     motor_reach = (depth**2 + behind.radius**2) ** 0.5
-    return Size(larger(larger(housing_reach, motor_reach), foot.base_radius), foot.wheel_height)
+    return Size(
+        elementwise_max(elementwise_max(housing_reach, motor_reach), foot.base_radius),
+        foot.wheel_height,
+    )
 
 
 @dataclass(frozen=True)

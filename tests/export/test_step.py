@@ -205,7 +205,7 @@ def test_the_device_has_every_module_in_its_place_and_its_plates(tmp_path, plate
     ]
     bodies = [
         (plate_part(single), Placement(np.eye(3), np.array(single.position)))
-        for single in plate.each
+        for single in plate.single_plates
     ]
     on_trunk = Placement(np.eye(3), np.array(plate.position))
     bodies += [
@@ -215,7 +215,7 @@ def test_the_device_has_every_module_in_its_place_and_its_plates(tmp_path, plate
     assert [solid.path for solid in solids] == [path for path, *_ in expected]
     for solid, (path, part, place) in zip(solids, expected, strict=True):
         check_solid(solid, part, place, COLORS[path[-1]])
-    assert step_bytes(plate_part(plate)).count(b"MANIFOLD_SOLID_BREP(") == len(plate.each)
+    assert step_bytes(plate_part(plate)).count(b"MANIFOLD_SOLID_BREP(") == len(plate.single_plates)
     billed = sum(row.quantity for row in bill_rows(device) if row.part.startswith("sleeve"))
     assert sum(solid.path[-1].startswith("sleeve") for solid in solids) == billed > 0
     wheels = [solid.solid.com for solid in solids if solid.path[-1] == "flywheel"]

@@ -13,7 +13,7 @@ from ocs_design.export.meshes import part_mesh
 from ocs_design.parts.cage import cage_part
 from ocs_design.parts.foot import foot_part
 from ocs_design.parts.housing import housing_parts
-from ocs_design.parts.module import drive_moments, standing
+from ocs_design.parts.module import carrier_of, drive_moments
 from ocs_design.parts.motor_mount import mount_of
 from ocs_design.parts.solids import Carrier
 from ocs_design.robot.mass import MassProperties, combine
@@ -57,7 +57,7 @@ def test_the_carrier_has_the_mass_properties_of_its_meshes(mounting, thick):
     expected = combine([mesh_mass_properties(*piece) for piece in pieces])
     parts = carrier_parts(weightless, DIRECT, 0.034, 0.004, thick)
     screws = [each for each in parts if not each.inertia.any()]
-    carrier = standing(weightless, DIRECT, 0.034, 0.004, foot_plate=thick).mass_properties()
+    carrier = carrier_of(weightless, DIRECT, 0.034, 0.004, foot_plate=thick).mass_properties()
     total = combine([expected, *screws])
     assert carrier.mass == pytest.approx(total.mass, rel=1e-6)
     np.testing.assert_allclose(carrier.com, total.com, atol=1e-7)

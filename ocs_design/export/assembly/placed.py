@@ -30,7 +30,7 @@ from ocs_design.parts.carrier_plate import plate_bodies
 from ocs_design.parts.housing import FIRST_EAR, LID_SCREWS, guard_ring
 from ocs_design.parts.motor_mount import DriveSolid
 from ocs_design.parts.printed import LID_SCREW, ear_axis
-from ocs_design.parts.solids import HERE, Part, Revolution, hollow_cylinder, revolved
+from ocs_design.parts.solids import ORIGIN, Part, Revolution, hollow_cylinder, revolved
 
 SECTIONS = 64
 """Chords of a full circle."""
@@ -79,19 +79,19 @@ def placed_parts(device: Device) -> Mapping[str, tuple[Part[float], Placement]]:
     two cylinders, named after each wheel.
     """
     found = {
-        name.removeprefix("flywheel_"): (part, HERE)
+        name.removeprefix("flywheel_"): (part, ORIGIN)
         for name, part in wheel_pieces(device.flywheel).items()
     }
     if device.wheels_alone:
         return found
     foot, cage = foot_of(device), motor_mount(device).cage
     if device.guard_wall:
-        found["guard"] = guard_ring(foot.housing), HERE
+        found["guard"] = guard_ring(foot.housing), ORIGIN
     places = {"foot": foot.placement}
     if cage is not None:
         places["cage"] = cage_placement(foot, cage)
     for part in printed_parts(device):
-        found[part.name] = (part, places.get(part.name, HERE))
+        found[part.name] = (part, places.get(part.name, ORIGIN))
     motor = device.motor
     masses = {"motor": motor.mass, "gear": motor.gear_mass}
     drawn = [

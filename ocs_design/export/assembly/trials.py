@@ -244,8 +244,8 @@ def _stiffer(device: Device, modes: Sequence[Resonance]) -> Iterator[str]:
         return
     stiff = replace(plate, thickness=thick)
     frequency = plate_frequency(stiff, device.module_mass)
-    heavier = sum(plate_part(each).mass() for each in stiff.each)
-    heavier -= sum(plate_part(each).mass() for each in plate.each)
+    heavier = sum(plate_part(each).mass() for each in stiff.single_plates)
+    heavier -= sum(plate_part(each).mass() for each in plate.single_plates)
     longer = 1e3 * (thick - plate.thickness)
     yield (
         f"make the plate {1e3 * thick:g} mm thick, all screws through it {longer:g} mm longer: "

@@ -78,7 +78,7 @@ def plate_sheets(device: Device, robot: str, refused: str = "") -> list[list[Ite
     if plate is None:
         return []
     equal_plates: dict[object, list[int]] = {}
-    for index, one_plate in enumerate(plate.each):
+    for index, one_plate in enumerate(plate.single_plates):
         equal_plates.setdefault(
             (_rounded(one_plate.feet), _rounded(one_plate.trunk), one_plate.sleeves), []
         ).append(index)
@@ -88,7 +88,7 @@ def plate_sheets(device: Device, robot: str, refused: str = "") -> list[list[Ite
     )
     sheets = []
     for number, indices in enumerate(equal_plates.values(), start=1):
-        sample = plate.each[indices[0]]
+        sample = plate.single_plates[indices[0]]
         scale, view = _top_view(sample)
         entries = entries_of(
             title=_title(plate, indices),
@@ -98,7 +98,7 @@ def plate_sheets(device: Device, robot: str, refused: str = "") -> list[list[Ite
             texture="as rolled, edges Ra 6.3 (ISO 21920)",
             sheet=f"{number} / {count}",
         )
-        middles = [plate.each[index].position[:2] for index in indices]
+        middles = [plate.single_plates[index].position[:2] for index in indices]
         sheets.append(complete_sheet(view, _plate_notes(sample, middles), entries, refused))
     mast = plate.mast
     if mast is not None:

@@ -19,7 +19,7 @@ from ocs_design.device.device import braked
 from ocs_design.device.layout import PAIR, Layout
 from ocs_design.device.records.selection import TaskDemand
 from ocs_design.parts.carrier_plate import CarrierPlate
-from ocs_design.parts.module import Printed, standing
+from ocs_design.parts.module import Printed, carrier_of
 from ocs_design.parts.motor_mount import MotorMount, hub_of, mount_of
 from ocs_design.parts.pedestal import Pedestal
 from ocs_design.parts.printed import PLATE_THICKNESS
@@ -230,7 +230,7 @@ class Candidate(DrivenWheel):
     @cached_property
     def carrier(self) -> Carrier:
         """Stationary part of one module: motor, gear, housing and foot."""
-        return standing(
+        return carrier_of(
             self.motor,
             self.gear,
             self.outer_radius,

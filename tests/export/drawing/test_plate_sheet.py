@@ -42,7 +42,7 @@ def test_the_table_has_every_hole_of_a_plate_with_its_place(plate):
     cells = [[text for _, text in sorted(row)] for row in rows.values()]
     holes = [row for row in cells if re.fullmatch(r"[ABC]\d", row[0]) and len(row) == 4]
     listed = {(row[1], float(row[2]), float(row[3])) for row in holes}
-    single = plate.each[0]
+    single = plate.single_plates[0]
     expected = {("M3", *np.round(1e3 * np.array(at), 2)) for at in single.feet}
     if plate.mast is None:
         expected |= {("Ø3.4", *np.round(1e3 * np.array(at), 2)) for at in single.trunk}
@@ -91,7 +91,7 @@ def test_the_outline_drawn_is_that_of_the_plate(plate):
         for item in page
         if isinstance(item, Circle) and item.center[1] < 140.0
     )
-    single = plate.each[0]
+    single = plate.single_plates[0]
     volume = part_manifold(plate_part(single)).volume()
     assert (area - holes) * (part / paper) ** 2 == pytest.approx(
         1e6 * volume / single.thickness, rel=1e-3
@@ -123,7 +123,7 @@ def test_plates_that_differ_have_a_sheet_each(inwards):
     if not inwards:
         middles = [" and ".join(middles)]
     assert re.findall(r"axes cross at x, y = (.*?) of the base frame", notes) == middles
-    for page, plate in zip(pages, twice.each, strict=False):
+    for page, plate in zip(pages, twice.single_plates, strict=False):
         words = [item.text for item in texts(page)]
         assert all(f"{1e3 * y:.2f}" in words for _, y in plate.trunk)
         check_words(page)
