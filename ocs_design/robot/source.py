@@ -88,8 +88,10 @@ def _read_file(path: Path, name: str) -> bytes:
             hint = "it is a web address: download the file and its meshes first"
             raise RobotError(f"{name} is not a file", hint=hint) from error
         try:
+            kinds = {*_ROBOT_SUFFIXES, path.suffix}
             siblings = sorted(
-                path.absolute().parent.iterdir(), key=lambda sibling: sibling.suffix == path.suffix
+                (each for each in path.absolute().parent.iterdir() if each.suffix in kinds),
+                key=lambda sibling: sibling.suffix == path.suffix,
             )
             name_of_stem = {sibling.stem: sibling.name for sibling in siblings}
         except OSError:
@@ -119,12 +121,16 @@ def _read_file(path: Path, name: str) -> bytes:
 def _likely_robots(folder: Path) -> list[Path]:
     """Likely robot files in a folder and its subfolders, as in packages; best first."""
     inside = (*folder.glob("*"), *folder.glob("[!.]*/*"))
-    suffixes = {".urdf", ".xacro", ".xml", ".gz"}
     likely = (
-        path for path in inside if path.suffix in suffixes and path.name not in _PACKAGE_FILES
+        path
+        for path in inside
+        if path.suffix in _ROBOT_SUFFIXES and path.name not in _PACKAGE_FILES
     )
     return sorted(likely, key=lambda path: (len(path.parts), ".urdf" not in path.name, path))
 
+
+_ROBOT_SUFFIXES = {".urdf", ".xacro", ".xml", ".gz"}
+"""Suffixes of files that may be robots."""
 
 _PACKAGE_FILES = {"package.xml", "plugin.xml", "plugins.xml"}
 """Other XML files of a ROS package than its robot."""
