@@ -68,7 +68,7 @@ def test_a_flight_with_a_momentum_error_is_repeated_with_half_the_step(
 ):
     """Solo12's braking legs at 1 ms; runs that conserve momentum are not repeated."""
     monkeypatch.setattr("ocs_design.simulation.world_builder.JUMP_STEP", STEP)
-    monkeypatch.setattr("ocs_design.simulation.scenario.HALVINGS", 0)
+    monkeypatch.setattr("ocs_design.simulation.scenario.MOST_HALVINGS", 0)
     coarse = run_scenarios(Flights(solo12, paper_device(), [disturbance], jumps=jumps))
     monkeypatch.undo()
     monkeypatch.setattr("ocs_design.simulation.world_builder.JUMP_STEP", STEP)
