@@ -52,7 +52,7 @@ def run(app: typer.Typer, arguments: Sequence[str]) -> int:
         if not isinstance(error.__context__ or error, BrokenPipeError):
             raise
         # The reader has closed the pipe, as `head` does.
-        _write_nowhere(sys.stdout, sys.stderr)
+        _discard_output(sys.stdout, sys.stderr)
         return BROKEN_PIPE
     except (OcsError, typer.TyperException, OSError, UnicodeEncodeError) as error:
         # A closing terminal sends an interrupt, and then nothing can be printed on it.
@@ -97,11 +97,11 @@ def _as_ocs_error(error: Failure) -> OcsError:
     return UsageError(message, hint=hint)
 
 
-def _write_nowhere(*streams: TextIO) -> None:
-    """Redirect streams to nowhere, as Python would complain when it flushes them at exit."""
-    nowhere = os.open(os.devnull, os.O_WRONLY)
+def _discard_output(*streams: TextIO) -> None:
+    """Discard what streams still hold; Python would complain when it flushes them at exit."""
+    null_device = os.open(os.devnull, os.O_WRONLY)
     for stream in streams:
-        os.dup2(nowhere, stream.fileno())
+        os.dup2(null_device, stream.fileno())
 
 
 def _report(error: Failure, *, as_json: bool, color: bool) -> int:
@@ -110,7 +110,7 @@ def _report(error: Failure, *, as_json: bool, color: bool) -> int:
     unprinted = isinstance(error, OSError) and error.filename is None
     if unprinted:
         # Output that could not be printed is still in the buffer.
-        _write_nowhere(sys.stdout)
+        _discard_output(sys.stdout)
     try:
         if as_json and not unprinted:
             message = {"kind": reported.kind, "message": reported.message, "hint": reported.hint}
@@ -129,5 +129,5 @@ def _report(error: Failure, *, as_json: bool, color: bool) -> int:
     except OSError:
         if not isinstance(error, OSError):
             raise
-        _write_nowhere(sys.stderr)
+        _discard_output(sys.stderr)
     return reported.exit_code

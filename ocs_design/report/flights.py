@@ -188,7 +188,7 @@ SURVIVAL_TITLE = "Failure of a drive: final error in degrees, by the time of fai
 
 
 def survival_sentence(survival: SurvivalRecord) -> str:
-    """Whether it lands despite the failure of a drive, the worst case, and when it does not."""
+    """Whether the robot lands despite a failed drive, the worst case, and when it does not."""
     count, lost, worst = len(survival.flights), survival.lost, survival.worst
     tilt = "not judged" if worst.tilt is None else f"{degrees(worst.tilt)} off at the end"
     case = f"worst: drive {worst.module} fails {worst.instant:.2f} s into {worst.scenario}, {tilt}"

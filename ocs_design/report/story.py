@@ -95,7 +95,7 @@ class RecordedFlight:
 def recorded_flights(
     records: Sequence[ValidationRecord], runs: Sequence[Run]
 ) -> tuple[RecordedFlight, ...]:
-    """Runs of a simulation and their records as flights to plot."""
+    """Flights to plot, from the runs of a simulation and their records."""
     pairs = zip(records, runs, strict=True)
     return tuple(
         RecordedFlight.of(record, run.series.columns(), run.poses) for record, run in pairs

@@ -9,7 +9,7 @@ from ocs_design.requirement.bound import AXES, authority, bound_curve, spin_boun
 from ocs_design.requirement.values import INCIDENCE, TRUNK_RATE, WHEEL_RATE, Quantity
 
 CURVE_FACTORS = (0.25, 0.5, 1.0, 2.0, 4.0)
-"""Rate changes and wheel speeds of the curve, over the given ones."""
+"""Rate changes and wheel speeds of the curve, relative to the given ones."""
 
 
 def bound_by_hand(

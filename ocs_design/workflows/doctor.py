@@ -69,7 +69,7 @@ _MODULES = {"pycollada": "collada", "pillow": "PIL", "cadquery-ocp-novtk": "OCP"
 """Modules of packages that have another name."""
 
 DEVELOPMENT = frozenset({"test", "dev", "docs"})
-"""Extras for those who change the code."""
+"""Extras for developers."""
 
 TIME_LIMIT = 120.0
 """Longest time to import everything [s]."""
@@ -108,7 +108,7 @@ class PackageRequirement:
         return _MODULES.get(self.name) or self.name.replace("-", "_")
 
     def cure(self, state: State) -> str:
-        """The command that fixes it."""
+        """Command that fixes a package in this state; empty if it works."""
         if state is State.WORKS:
             return ""
         if state is State.BROKEN:
@@ -272,7 +272,7 @@ def ffmpeg_finding() -> Finding:
 
 
 def compiler_finding() -> Finding:
-    """Finding about a C compiler, by the names that `make` and Python's own builds try."""
+    """Finding about a C compiler, under the names that `make` and Python's own builds try."""
     program = next((name for name in ("cc", "gcc", "clang") if shutil.which(name)), "")
     return Finding(
         name="C compiler",

@@ -291,7 +291,7 @@ def _legend_marks(marks: Sequence[Mark]) -> list[Mark]:
 
 
 def _legend_places(marks: Sequence[Mark], right: float) -> Iterator[tuple[Mark, float, int]]:
-    """Each mark with its x [px] and its row."""
+    """Each mark of the legend with its x [px] and its row."""
     x, row = 4.0, 0
     for mark in marks:
         width = _SAMPLE_WIDTH + 6.0 + _LEGEND_LETTER_WIDTH * len(mark.name) + _ENTRY_GAP

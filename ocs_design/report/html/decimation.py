@@ -65,7 +65,7 @@ def decimated(bodies: Sequence[ShownBody], most_triangles: int) -> tuple[ShownBo
 
 
 def _relative_cell(body: ShownBody) -> float:
-    """Relative cell size of a body: finer for the device, on which the interest lies."""
+    """Relative cell size of a body: finer for the device, which matters most."""
     return DEVICE_CELL if body.name.startswith(PREFIX) else 1.0
 
 

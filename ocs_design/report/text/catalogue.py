@@ -139,7 +139,7 @@ def print_motors(console: Console, motors: Sequence[Motor]) -> None:
             classes.append((limits, str(complete), str(len(of_class))))
     show(console, CellTable(columns("<peak [N m]", "complete", "motors"), tuple(classes)))
     note(console, "size chooses among complete motors; with --motors-any among all")
-    # Data that the others lack for building: one line for each set of gaps.
+    # Data that motors lack for building: one line for each set of gaps.
     by_gaps: dict[tuple[str, ...], list[str]] = {}
     for motor in motors:
         by_gaps.setdefault(build_gaps(motor), []).append(motor.name)
