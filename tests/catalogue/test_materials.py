@@ -52,13 +52,7 @@ def test_densities_are_those_of_metals():
 
 def test_the_default_has_every_strength():
     steel = material(DEFAULT_MATERIAL)
-    assert (steel.density, steel.yield_strength, steel.poisson_ratio) == (8000.0, 215e6, 0.29)
-
-
-def test_the_papers_material_is_known_by_its_density_only():
-    paper = material("stainless-paper")
-    assert paper.density == 7860.0
-    assert paper.yield_strength is paper.ultimate_strength is paper.poisson_ratio is None
+    assert None not in (steel.yield_strength, steel.ultimate_strength, steel.poisson_ratio)
 
 
 def test_a_name_without_similar_ones_lists_all():

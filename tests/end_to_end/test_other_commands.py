@@ -16,17 +16,12 @@ from ocs_design.requirement import specification
 PAPER = ("bound", "--inertia", "0.0515", "--rate-change", "2", "--wheel-speed-max", "750rad/s")
 
 
-def test_bound_gives_the_approximate_and_the_exact_inertia():
-    answer = run(*PAPER, "--alpha", "40deg", "--json").document
+@pytest.mark.parametrize(("axis", "share"), [("pitch", np.cos), ("roll", np.sin)])
+def test_bound_gives_the_approximate_and_the_exact_inertia(axis, share):
+    answer = run(*PAPER, "--alpha", "40deg", "--axis", axis, "--json").document
     assert answer["paper"] == pytest.approx(1.36968e-4, rel=1e-5)
     assert answer["required"] == pytest.approx(0.0515 * 2.0 / 748.0, rel=1e-12)
-    per_wheel = answer["required"] / (2.0 * np.cos(np.radians(40.0)))
-    assert answer["spin_inertia"] == pytest.approx(per_wheel, rel=1e-12)
-
-
-def test_bound_on_roll_takes_the_sine():
-    answer = run(*PAPER, "--alpha", "40deg", "--axis", "roll", "--json").document
-    per_wheel = answer["required"] / (2.0 * np.sin(np.radians(40.0)))
+    per_wheel = answer["required"] / (2.0 * share(np.radians(40.0)))
     assert answer["spin_inertia"] == pytest.approx(per_wheel, rel=1e-12)
 
 

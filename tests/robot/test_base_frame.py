@@ -112,13 +112,6 @@ def test_a_backward_x_axis_raises_a_warning(tmp_path):
     assert not any("point backwards" in warning for warning in read_robot(SOLO12).warnings)
 
 
-def test_a_usual_robot_keeps_its_trunk():
-    robot = read_robot(SOLO12)
-    assert robot.mount is None
-    assert robot.trunk == "base_link"
-    assert not any("base" in warning for warning in robot.warnings)
-
-
 def test_a_robot_with_y_up_stands_upright():
     robot = read_robot(next(ROBOTS.rglob("human.urdf")))
     assert robot.trunk == BASE_FRAME

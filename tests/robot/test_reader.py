@@ -23,6 +23,7 @@ def test_solo12_with_no_option():
     solo12 = read_robot(SOLO12)
     assert solo12.name == "solo"
     assert solo12.format is RobotFormat.URDF
+    assert solo12.mount is None
     assert (solo12.trunk, solo12.floating_base, solo12.posture_name) == (
         "base_link",
         "base_link",
