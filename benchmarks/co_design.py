@@ -85,13 +85,13 @@ def row(problem: SelectionProblem) -> str:
     except Infeasible:
         return " | ".join(["none", *["–"] * 8])
     start = time.perf_counter()
-    found = co_design(problem, chosen)
+    result = co_design(problem, chosen)
     seconds = time.perf_counter() - start
     return (
-        f"{chosen.motor.name}, {chosen.gear.name} | {1e3 * found.selected_mass:.1f} g "
-        f"| {1e3 * found.device.mass:.1f} g | {found.gain:+.2%} "
-        f"| {degrees(chosen.incidence):.1f}° to {degrees(found.device.incidence):.1f}° "
-        f"| {found.status} | {found.iterations} | {found.fine_violation:.0e} "
+        f"{chosen.motor.name}, {chosen.gear.name} | {1e3 * result.selected_mass:.1f} g "
+        f"| {1e3 * result.device.mass:.1f} g | {result.gain:+.2%} "
+        f"| {degrees(chosen.incidence):.1f}° to {degrees(result.device.incidence):.1f}° "
+        f"| {result.status} | {result.iterations} | {result.fine_violation:.0e} "
         f"| {seconds:.1f} s"
     )
 

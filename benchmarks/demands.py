@@ -21,22 +21,25 @@ import numpy as np
 from paired import SOLO12
 
 
-def drawn(draw: random.Random) -> list[str]:
+def random_options(generator: random.Random) -> list[str]:
     """Arguments of a design."""
-    options = ["--bus-voltage", f"{draw.choice([18, 20, 22.2, 24, 25.2, 36, 48])}V"]
-    options += ["--bus-power", f"{draw.uniform(400, 900):.0f}W"]
-    options += ["--r-max", f"{draw.uniform(45, 70):.0f}mm"]
-    options += ["--layout", draw.choice(["pair", "pair", "triad", "orthogonal", "double-pair"])]
-    if draw.random() < 0.5:
-        options += ["--fall", f"{draw.uniform(0.7, 1.5):.2f}m", "--tilt", "20deg"]
-    if draw.random() < 0.2:
-        inertia = draw.choice(["0.03,0.055,0.07", "0.05,0.09,0.12"])
-        mass = f"{draw.uniform(2, 6):.2f}"
+    options = ["--bus-voltage", f"{generator.choice([18, 20, 22.2, 24, 25.2, 36, 48])}V"]
+    options += ["--bus-power", f"{generator.uniform(400, 900):.0f}W"]
+    options += ["--r-max", f"{generator.uniform(45, 70):.0f}mm"]
+    options += [
+        "--layout",
+        generator.choice(["pair", "pair", "triad", "orthogonal", "double-pair"]),
+    ]
+    if generator.random() < 0.5:
+        options += ["--fall", f"{generator.uniform(0.7, 1.5):.2f}m", "--tilt", "20deg"]
+    if generator.random() < 0.2:
+        inertia = generator.choice(["0.03,0.055,0.07", "0.05,0.09,0.12"])
+        mass = f"{generator.uniform(2, 6):.2f}"
         return ["--mass", mass, "--inertia", inertia, "--ballistic", *options]
     return [str(SOLO12), *options]
 
 
-def asked(folder: Path) -> dict[str, float]:
+def shares_of_demands(folder: Path) -> dict[str, float]:
     """Largest of each quantity over its margin's demand, and over what the supply gives."""
     design = json.loads((folder / "design.json").read_text())
     motor, supply = design["ocs"]["motor"], design["supply"]
@@ -82,11 +85,11 @@ def asked(folder: Path) -> dict[str, float]:
 
 
 def main() -> None:
-    given = [int(each) for each in sys.argv[1:]]
-    count, seed = (*given, *(20, 15)[len(given) :])
-    draw, worst = random.Random(seed), {}
+    numbers = [int(argument) for argument in sys.argv[1:]]
+    count, seed = (*numbers, *(20, 15)[len(numbers) :])
+    generator, worst = random.Random(seed), {}
     for number in range(count):
-        options = drawn(draw)
+        options = random_options(generator)
         with tempfile.TemporaryDirectory() as folder:
             out = Path(folder) / "ocs"
             command = [sys.executable, "-m", "ocs_design", "size", *options, "-q", "-o", str(out)]
@@ -94,7 +97,7 @@ def main() -> None:
             if code not in {0, 1}:
                 print(f"{number}: exit code {code}: {' '.join(options)}", file=sys.stderr)
                 continue
-            for name, share in asked(out).items():
+            for name, share in shares_of_demands(out).items():
                 worst[name] = max(share, worst.get(name, 0.0))
     print("| quantity | largest share |\n|---|---|")
     for name, share in worst.items():

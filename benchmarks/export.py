@@ -28,7 +28,7 @@ def main() -> None:
         runs = [run_process(export) for _ in range(count + 1)][1:]
         sizes = [path.stat().st_size for path in out.rglob("*") if path.is_file()]
     seconds = [run.seconds for run in runs]
-    print("   ".join(f"{each:.2f} s" for each in seconds))
+    print("   ".join(f"{duration:.2f} s" for duration in seconds))
     print(f"median {statistics.median(seconds):.2f} s  (goal: at most {SECONDS:g} s)")
     print(f"{len(sizes)} files, {sum(sizes) / 1e6:.2f} MB  (goal: below {MEGABYTES:g} MB)")
     print(f"peak memory: {max(run.peak_memory for run in runs):.0f} MiB")

@@ -41,16 +41,16 @@ def main() -> None:
     parser = argparse.ArgumentParser()
     parser.add_argument("parts", nargs="*", default=["killed", "full", "together", "same"])
     parser.add_argument("--moments", type=int, default=50)
-    asked = parser.parse_args()
+    options = parser.parse_args()
     for number in SIGNALS[1:]:
         # Where this was started by `nohup` or behind an `&`, what it starts would ignore them.
         signal.signal(number, signal.SIG_DFL)
-    for part in asked.parts:
+    for part in options.parts:
         with tempfile.TemporaryDirectory() as folder:
             os.chdir(folder)
             print(f"--- {part}", flush=True)
             if part == "killed":
-                killed(asked.moments)
+                killed(options.moments)
             else:
                 {"full": full, "together": together, "same": same}[part]()
             os.chdir("/")
@@ -61,15 +61,15 @@ def killed(moments: int) -> None:
     make_design()
     for name, command in COMMANDS.items():
         old, new, seconds = references(command)
-        found: Counter[str] = Counter()
+        counts_by_state: Counter[str] = Counter()
         for moment in range(moments):
-            number = SIGNALS[moment % len(SIGNALS)]
+            signal_number = SIGNALS[moment % len(SIGNALS)]
             renew("old", "out")
-            after = seconds * (moment + 0.5) / moments
-            found[state_after(command, number, after, old, new)] += 1
+            seconds_before = seconds * (moment + 0.5) / moments
+            counts_by_state[state_after(command, signal_number, seconds_before, old, new)] += 1
         last = left_over()
         run_to_end(command)
-        counts = ", ".join(f"{count} {state}" for state, count in sorted(found.items()))
+        counts = ", ".join(f"{count} {state}" for state, count in sorted(counts_by_state.items()))
         print(f"{name:9} {seconds:5.1f} s: {counts}")
         print(f"    left by the last one {last}, after the next run {left_over()}", flush=True)
 
@@ -86,11 +86,11 @@ def state_after(
     while process.poll() is None and processor_time(process.pid) < seconds:
         time.sleep(0.002)
     process.send_signal(number)
-    said = process.communicate()[1]
+    errors = process.communicate()[1]
     ended = {0: "ended before", 130: "told", -number: "killed"}.get(
         process.returncode, "WRONG CODE"
     )
-    return f"{ended}: {state(old, new)}{' TRACEBACK' if 'Traceback' in said else ''}"
+    return f"{ended}: {state(old, new)}{' TRACEBACK' if 'Traceback' in errors else ''}"
 
 
 def processor_time(process: int) -> float:
@@ -101,10 +101,10 @@ def processor_time(process: int) -> float:
 
 def state(old: Mapping[str, str], new: Mapping[str, str]) -> str:
     """By the bytes of all files, and by what the design says of them."""
-    found = file_hashes(Path("out"))
+    hashes = file_hashes(Path("out"))
     if read_design(Path("out/design.json")).files != recorded_hashes(Path("out")):
         return "MIXED BY ITS OWN HASHES"
-    return "old" if found == old else "new" if found == new else "MIXED"
+    return "old" if hashes == old else "new" if hashes == new else "MIXED"
 
 
 def full() -> None:
@@ -116,15 +116,15 @@ def full() -> None:
         # What is imported once need not be in each child; and the report names what was typed.
         run(*command)
         new = file_hashes(Path("out"))
-        found: Counter[str] = Counter()
-        number, ended = 0, False
-        while not ended:
+        counts: Counter[str] = Counter()
+        number, is_over = 0, False
+        while not is_over:
             number += 1
             renew("old", "out")
             code, traceback = in_a_child(command, number)
-            ended = code == 0
-            found[f"code {code}: {state(old, new)}{' TRACEBACK' if traceback else ''}"] += 1
-        print(f"{name:9} {dict(found)}; left over {left_over()}", flush=True)
+            is_over = code == 0
+            counts[f"code {code}: {state(old, new)}{' TRACEBACK' if traceback else ''}"] += 1
+        print(f"{name:9} {dict(counts)}; left over {left_over()}", flush=True)
 
 
 def in_a_child(command: tuple[str, ...], number: int) -> tuple[int, bool]:
@@ -159,10 +159,12 @@ def together() -> None:
     for name in ("with --force", "without"):
         options = COMMANDS["size"] if "with " in name else COMMANDS["size"][:-1]
         shutil.rmtree("out", ignore_errors=True)
-        both = [subprocess.Popen([*PROGRAM, *options], stderr=subprocess.DEVNULL) for _ in range(2)]
-        codes = sorted(process.wait() for process in both)
-        whole = read_design(Path("out/design.json")).files == recorded_hashes(Path("out"))
-        print(f"{name}: codes {codes}, whole {whole}, left over {left_over()}", flush=True)
+        processes = [
+            subprocess.Popen([*PROGRAM, *options], stderr=subprocess.DEVNULL) for _ in range(2)
+        ]
+        codes = sorted(process.wait() for process in processes)
+        consistent = read_design(Path("out/design.json")).files == recorded_hashes(Path("out"))
+        print(f"{name}: codes {codes}, whole {consistent}, left over {left_over()}", flush=True)
 
 
 def same() -> None:

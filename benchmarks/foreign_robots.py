@@ -273,13 +273,13 @@ def main() -> None:
     )
     for line in SEEN.split("\n")[1:-1]:
         name, trunk, legs = line.split()
-        found = sorted(arguments.folder.rglob(name))
-        if found:
+        paths = sorted(arguments.folder.rglob(name))
+        if paths:
             if name not in sizes and time.monotonic() < end:
-                sizes[name] = size(found[0])
+                sizes[name] = size(paths[0])
                 arguments.sizes.write_text(json.dumps(sizes))
             sized = shortly(*sizes[name]) if name in sizes else ""
-            print(row(found[0], name, trunk, int(legs), sized), flush=True)
+            print(row(paths[0], name, trunk, int(legs), sized), flush=True)
 
 
 def row(path: Path, name: str, trunk: str, legs: int, sized: str) -> str:
@@ -300,8 +300,8 @@ def row(path: Path, name: str, trunk: str, legs: int, sized: str) -> str:
     if not recognition.sure:
         best, *others = recognition.likely[:2]
         likely = [str(len(best.legs))] + [
-            f"{len(each.legs)}{'' if each.trunk == best.trunk else ' on ' + each.trunk}"
-            for each in others
+            f"{len(other.legs)}{'' if other.trunk == best.trunk else ' on ' + other.trunk}"
+            for other in others
         ]
         reading, verdict = f"asks: {best.trunk} | {' or '.join(likely)}", f"({person})"
     else:
@@ -376,11 +376,13 @@ def size(path: Path) -> tuple[int, str]:
     return done.returncode, f"{document['ocs']['mass_total']:.3g} kg, {motor}"
 
 
-def shortly(code: int, said: str) -> str:
+def shortly(code: int, printed: str) -> str:
     """Of what `size` said."""
     if code == 0:
-        return said
-    return f"{code}: {next((words for part, words in WORDS.items() if part in said), said[:40])}"
+        return printed
+    return (
+        f"{code}: {next((words for part, words in WORDS.items() if part in printed), printed[:40])}"
+    )
 
 
 if __name__ == "__main__":

@@ -37,8 +37,8 @@ def row(problem: SelectionProblem) -> str:
     free = chosen
     for width, step in STEPS:
         ratios = free.gear.ratio * np.arange(1.0 - width, 1.0 + width + step / 2.0, step)
-        found = best(alone(problem, free, [replace(free.gear, ratio=float(r)) for r in ratios]))
-        free = free if found is None else found
+        choice = best(alone(problem, free, [replace(free.gear, ratio=float(r)) for r in ratios]))
+        free = free if choice is None else choice
     return (
         f"{chosen.motor.name}, {chosen.gear.name}, {1e3 * chosen.mass:.1f} g "
         f"| {1e3 * free.mass:.1f} g | {1.0 - free.mass / chosen.mass:+.2%} "

@@ -114,7 +114,7 @@ def overlaps(device):
 def heights(triangles, places, *, highest):
     """Highest or lowest z of triangles over places [m]; infinite where there is none."""
     sign = 1.0 if highest else -1.0
-    found = np.full(len(places), -np.inf)
+    extremes = np.full(len(places), -np.inf)
     low, high = places.min(axis=0), places.max(axis=0)
     flat = triangles[:, :, :2]
     for a, b, c in triangles[((flat.max(1) >= low) & (flat.min(1) <= high)).all(axis=1)]:
@@ -128,8 +128,8 @@ def heights(triangles, places, *, highest):
         two = ((c[1] - a[1]) * x + (a[0] - c[0]) * y) / area
         inside = (one >= -1e-9) & (two >= -1e-9) & (one + two <= 1.0 + 1e-9)
         z = one * a[2] + two * b[2] + (1.0 - one - two) * c[2]
-        found[near[inside]] = np.maximum(found[near[inside]], sign * z[inside])
-    return sign * found
+        extremes[near[inside]] = np.maximum(extremes[near[inside]], sign * z[inside])
+    return sign * extremes
 
 
 def standing(device):

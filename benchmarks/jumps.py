@@ -182,16 +182,17 @@ def rows_of(robot: Robot, name: str) -> Iterator[str]:
         if jump is None:
             continue
         plan, seconds = planned(planner, body, maneuver)
-        asked = jump.upward**2 / (2.0 * jump.gravity)
-        start = f"| {name} | {maneuver.name} | {asked:.3f} |"
+        height = jump.upward**2 / (2.0 * jump.gravity)
+        start = f"| {name} | {maneuver.name} | {height:.3f} |"
         if plan.legs is None:
             yield f"{start} {plan.note} | | | | | {seconds:.1f} |"
             continue
-        found = measure(Jumper(builder.flight(maneuver, Wheels.ABSENT, None, plan)))
+        measured = measure(Jumper(builder.flight(maneuver, Wheels.ABSENT, None, plan)))
         yield (
-            f"{start} {found.rise:.3f} | {found.velocity[0]:.2f}, {found.velocity[1]:.2f} of "
-            f"{jump.forward:.2f}, {jump.upward:.2f} | {found.torque_share:.2f} "
-            f"| {1e3 * found.slip:.1f} | {found.energy_missing:.1e} | {seconds:.1f} |"
+            f"{start} {measured.rise:.3f} "
+            f"| {measured.velocity[0]:.2f}, {measured.velocity[1]:.2f} of "
+            f"{jump.forward:.2f}, {jump.upward:.2f} | {measured.torque_share:.2f} "
+            f"| {1e3 * measured.slip:.1f} | {measured.energy_missing:.1e} | {seconds:.1f} |"
         )
 
 

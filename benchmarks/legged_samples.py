@@ -191,23 +191,23 @@ def same(one: Path, other: Path) -> bool:
 
 def devices(found: list[Found]) -> str:
     """A row for each robot that gets a device: the device, and how often it works."""
-    there = [robot for robot in found if not robot.refused]
-    names = list(dict.fromkeys(each for robot in there for each in robot.designed))
+    with_device = [robot for robot in found if not robot.refused]
+    names = list(dict.fromkeys(name for robot in with_device for name in robot.designed))
     of_device = ("device", "of it", "for 99 %", "wheels", "α\\*", "motor")
     header = ("robot", "mass", *of_device, *names, "all", "95 % interval")
-    return table(header, (device_row(robot, names) for robot in there))
+    return table(header, (device_row(robot, names) for robot in with_device))
 
 
 def device_row(robot: Found, names: list[str]) -> tuple[str, ...]:
     ocs = robot.sized["ocs"]
-    cells = {each["scenario"]: rate(robot, each) for each in robot.scenarios}
-    whole, interval = "not flown yet", ""
+    cells = {scenario["scenario"]: rate(robot, scenario) for scenario in robot.scenarios}
+    passes, interval = "not flown yet", ""
     if robot.flown is not None and not robot.samples:
         cells = {name: as_designed(flight) for name, flight in robot.designed.items()}
-        whole = "as designed"
+        passes = "as designed"
     elif robot.flown is not None:
         success = robot.flown["monte_carlo"]["success"]
-        whole = f"{success['passed']} of {success['flown']}"
+        passes = f"{success['passed']} of {success['flown']}"
         low, high = floor(1e3 * success["low"]) / 10.0, ceil(1e3 * success["high"]) / 10.0
         interval = f"{low:g} to {high:g} %"
     return (
@@ -221,8 +221,8 @@ def device_row(robot: Found, names: list[str]) -> tuple[str, ...]:
         str(len(ocs["modules"])),
         f"{degrees(ocs['incidence']):.1f}°",
         motor(ocs["motor"]),
-        *(cells.get(each, "-") for each in names),
-        whole,
+        *(cells.get(name, "-") for name in names),
+        passes,
         interval,
     )
 
@@ -243,14 +243,14 @@ def rate(robot: Found, scenario: dict[str, Any]) -> str:
     passed, error = scenario["success"]["passed"], scenario["attitude_error"]
     designed = robot.designed[scenario["scenario"]]
     worst = f", {degrees(error['quantiles'][-1]):.1f}°" if error else ""
-    told = f"{passed}{worst}" + (" \\*" if designed["can_stand"] is False else "")
-    return told if passed == scenario["success"]["flown"] else f"**{told}**"
+    text = f"{passed}{worst}" + (" \\*" if designed["can_stand"] is False else "")
+    return text if passed == scenario["success"]["flown"] else f"**{text}**"
 
 
 def failures(found: list[Found]) -> str:
     """A row for each maneuver of a robot that does not pass every time."""
     rows = []
-    for robot, scenario in [(of, each) for of in found for each in of.scenarios]:
+    for robot, scenario in [(entry, scenario) for entry in found for scenario in entry.scenarios]:
         success, name = scenario["success"], scenario["scenario"]
         if success["passed"] < success["flown"]:
             share = f"{success['passed']} of {success['flown']}"
@@ -259,8 +259,8 @@ def failures(found: list[Found]) -> str:
                 f"`{cause['quantity']}` {cause['correlation']:+.2f}" for cause in scenario["causes"]
             )
             designed = robot.designed[name]
-            said = "passes" if designed["passed"] else designed["reason"]
-            rows.append((robot.name, name, share, faults, causes or "-", said))
+            nominal = "passes" if designed["passed"] else designed["reason"]
+            rows.append((robot.name, name, share, faults, causes or "-", nominal))
     header = ("robot", "maneuver", "passes", "what came of the others", "goes with", "as designed")
     return table(header, rows)
 
@@ -270,10 +270,10 @@ def starts(found: list[Found]) -> str:
     robots: dict[tuple[str, str], list[str]] = {}
     for robot in found:
         for name, flight in robot.designed.items():
-            for told in flight["note"].split("; "):
+            for note in flight["note"].split("; "):
                 # What comes after the announcement.
-                if "starts at lift-off" in told:
-                    robots.setdefault((robot.name, told.split(": ", 1)[1]), []).append(name)
+                if "starts at lift-off" in note:
+                    robots.setdefault((robot.name, note.split(": ", 1)[1]), []).append(name)
     rows = ((name, ", ".join(which), why) for (name, why), which in robots.items())
     return table(("robot", "starts at lift-off", "because"), rows)
 
@@ -281,7 +281,9 @@ def starts(found: list[Found]) -> str:
 def refusals(found: list[Found]) -> str:
     """A row for each robot that no motor turns: what came closest, and what would do."""
     header = ("robot", "mass", "closest of all motors", "a motor that would suffice", "lightest")
-    rows = ((each.name, f"{each.mass:.1f} kg", *refusal(each)) for each in found if each.refused)
+    rows = (
+        (robot.name, f"{robot.mass:.1f} kg", *refusal(robot)) for robot in found if robot.refused
+    )
     return table(header, rows)
 
 
@@ -310,10 +312,10 @@ def verdict(found: list[Found]) -> str:
 
 def built(found: list[Found]) -> str:
     """How many get a device that can be built, and the lightest and the heaviest of these."""
-    there = [each for each in found if not each.refused and each.sized["buildable"]["yes"]]
-    masses = [(each.sized["ocs"]["mass_total"], each.name) for each in there]
+    buildable = [robot for robot in found if not robot.refused and robot.sized["buildable"]["yes"]]
+    masses = [(robot.sized["ocs"]["mass_total"], robot.name) for robot in buildable]
     least, most = (f"{grams(mass)} ({name})" for mass, name in (min(masses), max(masses)))
-    return f"{len(there)} of {len(found)} get a buildable device, from {least} to {most}.\n"
+    return f"{len(buildable)} of {len(found)} get a buildable device, from {least} to {most}.\n"
 
 
 TABLES: Mapping[str, Callable[[list[Found]], str]] = {

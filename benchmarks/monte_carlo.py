@@ -111,13 +111,13 @@ def workers():
     print(f"two workers over one: {spread(rates['two'] / rates['one'])}")
 
 
-def weighed(campaign, blocks, progress, threads=None):
+def flown_with_peaks(campaign, blocks, progress, threads=None):
     """Tells the peak of this process each time that twice as many samples are flown."""
-    told = 0
+    reported = 0
     for block, outcomes in fly_here(campaign, blocks, progress, threads=threads):
-        if block.stop >= 2 * told:
-            told = block.stop
-            print(f"{told:9,} samples: {peak():7.1f} MiB", flush=True)
+        if block.stop >= 2 * reported:
+            reported = block.stop
+            print(f"{reported:9,} samples: {peak():7.1f} MiB", flush=True)
         yield block, outcomes
 
 
@@ -129,7 +129,7 @@ def peak():
 def memory(until=None):
     """Whether the peak grows with the number of samples, and what it comes to."""
     start = time.perf_counter()
-    outcomes = run_campaign(drops(until), blocks_of(DROPS), fly=weighed)
+    outcomes = run_campaign(drops(until), blocks_of(DROPS), fly=flown_with_peaks)
     took, passed = time.perf_counter() - start, outcomes.passed.mean()
     print(f"{DROPS:,} drops in {took:.0f} s, {peak():.1f} MiB, {passed:.1%} pass")
 
@@ -150,7 +150,7 @@ def humanoid(design):
     )
     for count in (1, 2):
         start, clock = time.process_time(), time.perf_counter()
-        run_campaign(campaign, blocks_of(128), fly=partial(weighed, threads=count))
+        run_campaign(campaign, blocks_of(128), fly=partial(flown_with_peaks, threads=count))
         used, took = time.process_time() - start, time.perf_counter() - clock
         print(f"{count} threads: {used / 128:.2f} processor seconds a sample, {took:.0f} s in all")
 

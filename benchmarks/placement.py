@@ -46,11 +46,11 @@ def row(name: str) -> str:
     resolved = task.resolved
     start = time.perf_counter()
     collision_model(robot)
-    found = place_free(robot, resolved.envelope)
+    placing = place_free(robot, resolved.envelope)
     seconds = time.perf_counter() - start
-    center = found.place.centers(Sizes.of(resolved.envelope).largest)[0]
+    center = placing.place.centers(Sizes.of(resolved.envelope).largest)[0]
     at = ", ".join(f"{1e3 * float(value):.0f}" for value in np.array(center))
-    where = f"{found.face} the trunk" if found.free else "none is free"
+    where = f"{placing.face} the trunk" if placing.free else "none is free"
     try:
         designed = design_device(task)
     except OcsError as error:
@@ -60,11 +60,11 @@ def row(name: str) -> str:
         robot, designed.device, resolved.requirement.maneuvers, designed.sized.total
     )
     seconds += time.perf_counter() - start
-    clearances = f"{told(mounting.nearest)} | {told(mounting.landing)}"
+    clearances = f"{clearance_text(mounting.nearest)} | {clearance_text(mounting.landing)}"
     return f"{where} | {at} | {clearances} | {seconds:.2f}"
 
 
-def told(clearance: Clearance | None) -> str:
+def clearance_text(clearance: Clearance | None) -> str:
     return "-" if clearance is None else f"{clearance.part} {1e3 * clearance.distance:.1f}"
 
 

@@ -35,17 +35,17 @@ def main() -> None:
         plant = Gyrostat(INERTIA, np.asarray(axes), spin_inertia, 0.0)
         for factor in FACTORS:
             turn = TurnTo(name="turn", pitch=np.pi / 6.0, duration=0.385 * factor, jump_height=9.0)
-            asked = turn.boundary(0.3)
-            least_power_turn(asked, plant, LINE)  # warm
+            boundary = turn.boundary(0.3)
+            least_power_turn(boundary, plant, LINE)  # warm
             start = time.process_time()
-            planned = least_power_turn(asked, plant, LINE)
+            planned = least_power_turn(boundary, plant, LINE)
             seconds = time.process_time() - start
             times[not planned.failure].append(seconds)
-            told = planned.failure or "planned"
-            print(f"{name:11} x {factor:3.1f}  {seconds:6.3f} s  {told}", flush=True)
-    for made, word in ((True, "planned"), (False, "not planned")):
-        if times[made]:
-            most, middle = max(times[made]), statistics.median(times[made])
+            outcome = planned.failure or "planned"
+            print(f"{name:11} x {factor:3.1f}  {seconds:6.3f} s  {outcome}", flush=True)
+    for is_planned, word in ((True, "planned"), (False, "not planned")):
+        if times[is_planned]:
+            most, middle = max(times[is_planned]), statistics.median(times[is_planned])
             share = f"{most / goal:.2f} of the goal"
             print(f"{word:11}  most {most:.3f} s ({share}), median {middle:.3f} s")
 

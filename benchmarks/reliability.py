@@ -48,12 +48,12 @@ def main(folder: Path, robot: Path = SOLO12, count: int = 20, samples: int = 256
     """Size, fly and compare; one line each."""
     inside = safe = 0
     for index in range(count):
-        own = folder / f"{index:02d}"
-        own.mkdir(parents=True, exist_ok=True)
-        (own / "spec.toml").write_text(specification(index))
-        design, flown = own / "design", own / "flown"
+        run_folder = folder / f"{index:02d}"
+        run_folder.mkdir(parents=True, exist_ok=True)
+        (run_folder / "spec.toml").write_text(specification(index))
+        design, flown = run_folder / "design", run_folder / "flown"
         if not design.exists():
-            run("size", robot, "--spec", own / "spec.toml", "--no-validate", "-o", design)
+            run("size", robot, "--spec", run_folder / "spec.toml", "--no-validate", "-o", design)
         run("validate", design, "--samples", str(samples), "--seed", str(SEED + index), "-o", flown)
         kept = json.loads((design / "design.json").read_text())["selection"]["kept"]
         success = json.loads((flown / "monte_carlo.json").read_text())["success"]

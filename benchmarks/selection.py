@@ -25,16 +25,16 @@ def main() -> None:
     runs = int(sys.argv[1]) if len(sys.argv) > 1 else 7
     problem = robot_problem("Solo12")
     # One run, not counted, warms the caches.
-    found = select(problem)
+    choice = select(problem)
     print(
         f"{len(problem.motors)} motors, {len(problem.gears)} gears, "
-        f"{len(problem.materials)} materials: {found.candidates} candidates"
+        f"{len(problem.materials)} materials: {choice.candidates} candidates"
     )
     seconds = [timed(problem) for _ in range(runs)]
-    for index, each in enumerate(seconds, start=1):
-        print(f"{index:>6}  {each:>8.3f} s  {found.candidates / each:>12,.0f} /s")
+    for index, duration in enumerate(seconds, start=1):
+        print(f"{index:>6}  {duration:>8.3f} s  {choice.candidates / duration:>12,.0f} /s")
     median = statistics.median(seconds)
-    print(f"median  {median:>8.3f} s  {found.candidates / median:>12,.0f} /s  (goal: {GOAL:,})")
+    print(f"median  {median:>8.3f} s  {choice.candidates / median:>12,.0f} /s  (goal: {GOAL:,})")
 
 
 def timed(problem) -> float:

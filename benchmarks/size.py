@@ -54,8 +54,10 @@ def compare(motor: str, limit: float, folder: Path, pairs: int) -> None:
 
 def worlds_of_size(motor: str, out: Path) -> list[World]:
     """What `size` simulates for the device that it finds."""
-    asked = Specification(robot=RobotSection(file=str(SOLO12)), motor=MotorSection(name=motor))
-    outcome = design_ocs(asked, out=out)
+    specification = Specification(
+        robot=RobotSection(file=str(SOLO12)), motor=MotorSection(name=motor)
+    )
+    outcome = design_ocs(specification, out=out)
     builder = WorldBuilder(outcome.robot, outcome.device)
     return [
         builder.flight(maneuver, wheels)

@@ -68,16 +68,16 @@ def flown(robot: Path, seed: int = 0) -> dict[str, Any]:
         options = ("--certify", "--seed", str(seed), "-q", "-o", f"{folder}/ocs")
         command = [sys.executable, "-m", "ocs_design", "size", str(robot), *options]
         subprocess.run(command, check=False)
-        return said(Path(folder) / "ocs")
+        return certificate_of(Path(folder) / "ocs")
 
 
-def said(folder: Path) -> dict[str, Any]:
+def certificate_of(folder: Path) -> dict[str, Any]:
     """What a folder of `size --certify` says of reliability, and how far off level robots land."""
     design = json.loads((folder / "design.json").read_text())
     record = json.loads((folder / "certificate" / "monte_carlo.json").read_text())
     off_level = {
-        each["scenario"]: round(degrees(each["attitude_error"]["quantiles"][-1]), 2)
-        for each in record["scenarios"]
+        scenario["scenario"]: round(degrees(scenario["attitude_error"]["quantiles"][-1]), 2)
+        for scenario in record["scenarios"]
     }
     return {
         "sources": sources(),
@@ -89,18 +89,19 @@ def said(folder: Path) -> dict[str, Any]:
 
 def kept() -> dict[str, dict[str, Any]]:
     """Certificates by the robot's name."""
-    found: dict[str, dict[str, Any]] = json.loads(KEPT.read_text())
-    return found
+    by_name: dict[str, dict[str, Any]] = json.loads(KEPT.read_text())
+    return by_name
 
 
 def sentence(name: str) -> str:
     """What is sure of one robot, for the README."""
-    found = kept()[name]
-    low, asked = floored(100.0 * found["whole_interval"][0], 1), 100.0 * found["asked"]
+    certificate = kept()[name]
+    low, asked = floored(100.0 * certificate["whole_interval"][0], 1), 100.0 * certificate["asked"]
     return (
-        f"With all of them (`size --certify`, seed {found['seed']}), {found['whole']} of "
-        f"{found['samples']}\nsampled {name} complete all maneuvers: at least {low} of 100, with "
-        f"95 % confidence. The test for\n{asked:.4g} of 100 says: {found['verdict']} "
+        f"With all of them (`size --certify`, seed {certificate['seed']}), {certificate['whole']} "
+        f"of {certificate['samples']}\nsampled {name} complete all maneuvers: at least {low} "
+        "of 100, with 95 % confidence. The test for\n"
+        f"{asked:.4g} of 100 says: {certificate['verdict']} "
         f"([Monte Carlo](docs/monte_carlo.md), [all robots](docs/robots.md)).\n"
     )
 
@@ -108,17 +109,17 @@ def sentence(name: str) -> str:
 def certificates(_: str) -> str:
     """Table of all robots; a star for those flown with earlier sources than today's."""
     rows, today = [], sources()
-    for name, found in kept().items():
-        low = floored(100.0 * found["whole_interval"][0], 1)
-        worst = ", ".join(f"{key} {angle:.1f}°" for key, angle in found["off_level"].items())
+    for name, certificate in kept().items():
+        low = floored(100.0 * certificate["whole_interval"][0], 1)
+        worst = ", ".join(f"{key} {angle:.1f}°" for key, angle in certificate["off_level"].items())
         rows.append(
             (
-                name + ("" if found.get("sources") == today else " \\*"),
-                f"{1e3 * found['mass']:.0f} g",
-                found["verdict"],
-                f"{found['whole']} of {found['samples']}",
+                name + ("" if certificate.get("sources") == today else " \\*"),
+                f"{1e3 * certificate['mass']:.0f} g",
+                certificate["verdict"],
+                f"{certificate['whole']} of {certificate['samples']}",
                 f"{low} %",
-                str(found["round"]),
+                str(certificate["round"]),
                 worst,
             )
         )

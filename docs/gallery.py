@@ -65,8 +65,8 @@ def main() -> None:
 
 def cell(title: str, name: str, design: OcsDesign) -> str:
     """Picture and caption."""
-    said = f"{title}, {design.robot.mass:.1f} kg, and {grams(design.ocs.mass_total)}"
-    return f"![{title} with its device](_static/gallery/{name}.webp) {said}"
+    caption = f"{title}, {design.robot.mass:.1f} kg, and {grams(design.ocs.mass_total)}"
+    return f"![{title} with its device](_static/gallery/{name}.webp) {caption}"
 
 
 def picture(design: OcsDesign, file: Path, out: Path) -> None:

@@ -29,26 +29,28 @@ SHOWN = ("pair", "double-pair", "triad", "orthogonal", "pyramid")
 PAGE = Path(__file__).with_name("layouts.md")
 
 
-def flown(asked: Specification) -> tuple[float, SurvivalRecord]:
+def flown(specification: Specification) -> tuple[float, SurvivalRecord]:
     """Mass of the device that `size` makes [kg], and its flights with each drive stopped.
 
     Raises:
         Infeasible: there is none.
     """
-    stops = replace(asked, requirement=replace(asked.requirement, survives="any one motor"))
+    stops = replace(
+        specification, requirement=replace(specification.requirement, survives="any one motor")
+    )
     with TemporaryDirectory() as folder:
-        made = design_ocs(asked, out=f"{folder}/made")
-        found = validate_design(made, specification=stops).record.survival
-    assert found is not None, "its drives stop"
-    return made.design.ocs.mass_total, found
+        result = design_ocs(specification, out=f"{folder}/made")
+        survival = validate_design(result, specification=stops).record.survival
+    assert survival is not None, "its drives stop"
+    return result.design.ocs.mass_total, survival
 
 
-def told(survival: SurvivalRecord) -> Iterator[str]:
+def landings_text(survival: SurvivalRecord) -> Iterator[str]:
     """Landings within the allowance of each maneuver, and the angle at the worst."""
-    for name in dict.fromkeys(each.scenario for each in survival.flights):
-        flights = [each for each in survival.flights if each.scenario == name]
-        worst = max(np.inf if each.tilt is None else each.tilt for each in flights)
-        lands = sum(each.lands is True for each in flights)
+    for name in dict.fromkeys(flight.scenario for flight in survival.flights):
+        flights = [flight for flight in survival.flights if flight.scenario == name]
+        worst = max(np.inf if flight.tilt is None else flight.tilt for flight in flights)
+        lands = sum(flight.lands is True for flight in flights)
         yield f"{lands} of {len(flights)}, {np.degrees(worst):.1f}°"
 
 
@@ -60,35 +62,37 @@ def survival_table(robot: str) -> str:
         before = None
         for survives in ("none", "any one motor"):
             base = specification_of(robot)
-            asked = replace(
+            specification = replace(
                 base,
                 ocs=replace(base.ocs, layout=layout),
                 requirement=replace(base.requirement, survives=survives),
                 validation=replace(base.validation, ballistic=True),
             )
             try:
-                mass, survival = flown(asked)
+                mass, survival = flown(specification)
             except Infeasible as error:
                 print(f"{layout}, {survives}: {error.message}", file=sys.stderr)
                 continue
-            scenarios = tuple(dict.fromkeys(each.scenario for each in survival.flights))
+            scenarios = tuple(dict.fromkeys(flight.scenario for flight in survival.flights))
             more = "" if before is None else f" (+{1e3 * (mass - before):.0f} g)"
             before = mass
-            rows.append((f"`{layout}`", survives, f"{1e3 * mass:.0f} g{more}", *told(survival)))
+            rows.append(
+                (f"`{layout}`", survives, f"{1e3 * mass:.0f} g{more}", *landings_text(survival))
+            )
             print(rows[-1], file=sys.stderr, flush=True)
     return "\n" + table(("layout", "`survives`", "mass", *scenarios), rows) + "\n"
 
 
-def weighed(each: LayoutAnswer) -> tuple[str, ...]:
+def layout_row(answer: LayoutAnswer) -> tuple[str, ...]:
     """The row of a layout that has a device."""
-    assert each.mass is not None, "it has a device"
+    assert answer.mass is not None, "it has a device"
     return (
-        f"`{each.layout}`",
-        f"{1e3 * each.mass:.0f} g",
-        *(f"{value:.3g}" for value in (*each.momentum, *each.momentum_without_one)),
-        ", ".join(each.survives) or "-",
-        each.motor,
-        "no" if each.open else "yes",
+        f"`{answer.layout}`",
+        f"{1e3 * answer.mass:.0f} g",
+        *(f"{value:.3g}" for value in (*answer.momentum, *answer.momentum_without_one)),
+        ", ".join(answer.survives) or "-",
+        answer.motor,
+        "no" if answer.open else "yes",
     )
 
 
@@ -100,11 +104,11 @@ HEADER = (
 
 def layouts_table(robot: str) -> str:
     """A row for each layout that has a device, and why the others have none; nothing is flown."""
-    found = compare_layouts(
+    answers = compare_layouts(
         robot, progress=lambda label, _: print(label, file=sys.stderr, flush=True)
     ).layouts
-    rows = table(HEADER, [weighed(each) for each in found if each.mass is not None])
-    none = [f"- `{each.layout}`: {each.without}\n" for each in found if each.mass is None]
+    rows = table(HEADER, [layout_row(answer) for answer in answers if answer.mass is not None])
+    none = [f"- `{answer.layout}`: {answer.without}\n" for answer in answers if answer.mass is None]
     return "\n".join(["", rows, *([f"No device:\n\n{''.join(none)}"] if none else []), ""])
 
 

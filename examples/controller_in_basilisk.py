@@ -85,9 +85,9 @@ def fly(
         reactionWheelStateEffector.ReactionWheelStateEffector(),
         simIncludeRW.rwFactory(),
     )
-    for each in ocs["modules"]:
-        axis, spin = list(each["axis"]), ocs["spin_inertia"]
-        factory.create("custom", axis, Js=spin, useMaxTorque=False, Omega_max=1e6)
+    for wheel in ocs["modules"]:
+        axis, spin_inertia = list(wheel["axis"]), ocs["spin_inertia"]
+        factory.create("custom", axis, Js=spin_inertia, useMaxTorque=False, Omega_max=1e6)
     factory.addToSpacecraft("wheels", wheels, body)
     push, law = extForceTorque.ExtForceTorque(), Law(module, index)
     body.addDynamicEffector(push)
@@ -104,7 +104,7 @@ def fly(
     for k in range(1, int(end / STEP) // round(period / STEP) * round(period / STEP) + 1):
         if maneuver["kind"] == "disturbance":
             acts = begin <= (k - 0.5) * STEP < until
-            push.extTorquePntB_B = [[acts * each] for each in specified["torque"]]
+            push.extTorquePntB_B = [[acts * component] for component in specified["torque"]]
         sim.ConfigureStopTime(macros.sec2nano(k * STEP))
         sim.ExecuteSimulation()
         turned += STEP * law.attitude().omega_BN_B[1]

@@ -40,32 +40,32 @@ def begin(design: str) -> None:
     env = gymnasium.make("ocs_design.gym:OcsFlight-v0", design=design, maneuver=MANEUVER).unwrapped
 
 
-def action(policy: np.ndarray, seen: np.ndarray) -> np.ndarray:
+def action(policy: np.ndarray, observation: np.ndarray) -> np.ndarray:
     """Torques from an observation, see `OcsFlight`."""
-    rate, left = seen[3:5], seen[-5:-3]
-    return np.clip(policy.reshape(-1, 4) @ np.concatenate([rate, left]), -1.0, 1.0)
+    rate, tilt = observation[3:5], observation[-5:-3]
+    return np.clip(policy.reshape(-1, 4) @ np.concatenate([rate, tilt]), -1.0, 1.0)
 
 
 def learnt(task: tuple[np.ndarray, int]) -> float:
     """Reward of a flight up to touchdown: by how much of half a turn it came nearer to level."""
     policy, sample = task
-    seen, _ = env.reset(options={"sample": sample})
-    total, ended = 0.0, False
-    while not ended and seen[-1] == 0.0:
-        seen, reward, ended, _, _ = env.step(action(policy, seen))
+    observation, _ = env.reset(options={"sample": sample})
+    total, is_over = 0.0, False
+    while not is_over and observation[-1] == 0.0:
+        observation, reward, is_over, _, _ = env.step(action(policy, observation))
         total += reward
     return total
 
 
 def tested(policy: np.ndarray | None, sample: int) -> tuple[bool, float]:
     """Whether a whole flight passes, and its tilt at touchdown [rad]; None: the law flies."""
-    seen, told = env.reset(options={"sample": sample})
-    ended = False
-    while not ended:
-        chosen = told["law"] if policy is None else action(policy, seen)
-        seen, _, ended, _, told = env.step(chosen)
+    observation, info = env.reset(options={"sample": sample})
+    is_over = False
+    while not is_over:
+        command = info["law"] if policy is None else action(policy, observation)
+        observation, _, is_over, _, info = env.step(command)
     tilt = np.hypot(env.metrics.touchdown_roll, env.metrics.touchdown_pitch)
-    return told["passed"] is True, float(tilt)
+    return info["passed"] is True, float(tilt)
 
 
 def train(pool: ProcessPoolExecutor, size: int) -> tuple[np.ndarray, list[float]]:
@@ -95,25 +95,26 @@ def main() -> None:
     with ProcessPoolExecutor(2, initializer=begin, initargs=(design,)) as pool:
         policy, curve = train(pool, size)
         for name, flown in (("wheel law", None), ("policy", policy)):
-            found = list(pool.map(partial(tested, flown), TESTED))
-            passes, tilts = sum(each[0] for each in found), np.degrees([each[1] for each in found])
+            flights = list(pool.map(partial(tested, flown), TESTED))
+            passes = sum(flight[0] for flight in flights)
+            tilts = np.degrees([flight[1] for flight in flights])
             print(
-                f"{name}: {passes} of {len(found)} robots pass; tilt at touchdown "
+                f"{name}: {passes} of {len(flights)} robots pass; tilt at touchdown "
                 f"{np.median(tilts):.2f} deg in the median, {tilts.max():.2f} deg at most"
             )
     # A whole fall makes up for the tilt that it begins with.
-    seen, _ = env.reset(options={"sample": TESTED.start})
-    whole = 180.0 * float(np.hypot(*seen[-5:-3]))
+    observation, _ = env.reset(options={"sample": TESTED.start})
+    initial_tilt = 180.0 * float(np.hypot(*observation[-5:-3]))
     x, y = np.arange(1.0, GENERATIONS + 1.0), 180.0 * np.array(curve)
     chart = Chart(
         name="learning",
         title="Solo12 learns to land level",
         description="Degrees that the best policies of each generation came nearer to level.",
         x=Axis.around("generation", "", x, room=0.02),
-        y=Axis.around("nearer to level", "deg", np.append(y, whole), room=0.1),
+        y=Axis.around("nearer to level", "deg", np.append(y, initial_tilt), room=0.1),
         marks=(
             Curve(x, y, Ink.BLUE, f"best {BEST} of {POLICIES}"),
-            Rule(whole, upright=False, label="all of it", ink=Ink.FAINT),
+            Rule(initial_tilt, upright=False, label="all of it", ink=Ink.FAINT),
         ),
         height=300.0,
     )

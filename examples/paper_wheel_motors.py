@@ -55,7 +55,7 @@ def main() -> None:
     print(f"{'motor':28s}{'[g]':>6}{'[rpm]':>8}{'[N m]':>7}  {names}")
     for device, verdicts in rows:
         print(line(device, maneuvers, verdicts))
-    best = [device for device, verdicts in rows if all(each.passed for each in verdicts)]
+    best = [device for device, verdicts in rows if all(verdict.passed for verdict in verdicts)]
     print(f"{len(best)} do all three; the lightest: {best[0].motor.name}, {best[0].mass:.3f} kg")
 
 
@@ -83,13 +83,20 @@ def fly(
     verdicts = []
     for first in range(0, len(devices), BATCH):
         builders = [WorldBuilder(robot, device) for device in devices[first : first + BATCH]]
-        worlds = [builder.flight(m, Wheels.ACTIVE) for builder in builders for m in maneuvers]
+        worlds = [
+            builder.flight(maneuver, Wheels.ACTIVE)
+            for builder in builders
+            for maneuver in maneuvers
+        ]
         recording = simulate(worlds)
         metrics = [measure(recording, i, world) for i, world in enumerate(worlds)]
         flown = [metrics[i : i + len(maneuvers)] for i in range(0, len(metrics), len(maneuvers))]
         verdicts += [
-            [judge(found, m, can_stand=True) for found, m in zip(three, maneuvers, strict=True)]
-            for three in flown
+            [
+                judge(measured, maneuver, can_stand=True)
+                for measured, maneuver in zip(of_device, maneuvers, strict=True)
+            ]
+            for of_device in flown
         ]
     return verdicts
 

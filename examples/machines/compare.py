@@ -192,31 +192,31 @@ def lightest(stated: Specification) -> OcsDesign | Infeasible:
 def rows(built: Built) -> Iterator[tuple[str, ...]]:
     """The lines of a machine's table, each with what it is of."""
     stated = read_specification(HERE / f"{built.specification}.toml")
-    found = {name: lightest(change(stated)) for name, change in built.asked.items()}
-    devices = [each for each in found.values() if isinstance(each, OcsDesign)]
-    yield "", "built", *(name for name, each in found.items() if isinstance(each, OcsDesign))
-    wheels = [each.ocs.flywheel for each in devices]
-    yield "wheels", "", *(str(len(each.ocs.modules)) for each in devices)
+    answers = {name: lightest(change(stated)) for name, change in built.asked.items()}
+    designs = [answer for answer in answers.values() if isinstance(answer, OcsDesign)]
+    yield "", "built", *(name for name, answer in answers.items() if isinstance(answer, OcsDesign))
+    wheels = [design.ocs.flywheel for design in designs]
+    yield "wheels", "", *(str(len(design.ocs.modules)) for design in designs)
     yield (
         "motor",
         built.motor,
-        *(each.ocs.motor.name.removeprefix("Antigravity ") for each in devices),
+        *(design.ocs.motor.name.removeprefix("Antigravity ") for design in designs),
     )
     yield "rim of", "", *(wheel.material for wheel in wheels)
     yield _line("spin inertia, g m2", 1e3, 3, built.spin_inertia, [w.spin_inertia for w in wheels])
     yield _line("wheel, g", 1e3, 0, built.wheel_mass, [wheel.mass for wheel in wheels])
     yield "outer radius, mm", built.radius, *(f"{w.outer_radius * 1e3:.0f}" for w in wheels)
-    limits = [each.ocs.motor.torque_limit or nan for each in devices]
+    limits = [design.ocs.motor.torque_limit or nan for design in designs]
     yield _line("torque limit, N m", 1.0, 2, built.torque, limits)
-    flown = [[run for run in each.validation if run.ocs] for each in devices]
+    flown = [[run for run in design.validation if run.ocs] for design in designs]
     yield "flown", "", *(f"{sum(r.passed is True for r in runs)} of {len(runs)}" for runs in flown)
     tops = [max(_top_speed(run) for run in runs) for runs in flown]
     yield _line("wheel speed, rpm", 30.0 / pi, 0, built.speed, tops)
-    modules = [each.ocs.mass_total / len(each.ocs.modules) for each in devices]
+    modules = [design.ocs.mass_total / len(design.ocs.modules) for design in designs]
     yield "one module, g", built.module_mass, *(f"{mass * 1e3:.0f}" for mass in modules)
-    for name, each in found.items():
-        if isinstance(each, Infeasible):
-            yield (f"{name}: {each.message}",)
+    for name, answer in answers.items():
+        if isinstance(answer, Infeasible):
+            yield (f"{name}: {answer.message}",)
 
 
 def _top_speed(run: ValidationRecord) -> float:
@@ -227,7 +227,7 @@ def _top_speed(run: ValidationRecord) -> float:
 def _line(
     label: str, scale: float, digits: int, built: float, found: list[float]
 ) -> tuple[str, ...]:
-    cells = ("-" if isnan(each) else f"{each * scale:.{digits}f}" for each in (built, *found))
+    cells = ("-" if isnan(value) else f"{value * scale:.{digits}f}" for value in (built, *found))
     return label, *cells
 
 

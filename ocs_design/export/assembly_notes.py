@@ -30,7 +30,7 @@ from ocs_design.robot.surface import trunk_surface
 ON_TOP = 0.5e-3
 """Distance from the top of an assumed trunk within which feet count as resting on it [m]."""
 
-_UNDRILLED = "drill floor and plate for it"
+_DRILL_FOR_IT = "drill floor and plate for it"
 
 
 def device_notes(device: Device) -> tuple[str, ...]:
@@ -67,11 +67,11 @@ def drive_notes(device: Device) -> tuple[str, ...]:
             if room.depth
             else "the motor is counted right behind the plate"
         )
-        held = (
+        note = (
             f"the mounting of motor and gear is not designed, because the gear's {unknown} are not "
-            f"in the catalogue: {stands}; {_UNDRILLED}{threads}"
+            f"in the catalogue: {stands}; {_DRILL_FOR_IT}{threads}"
         )
-        return (held, *_overlap_notes(device, foot), *_landing_notes(device, foot))
+        return (note, *_overlap_notes(device, foot), *_landing_notes(device, foot))
     mounting, known = motor.mounting or Mounting(), known_motors(None).get(motor.name)
     remark = () if known is None or not known.remark else (f"about the motor: {known.remark}",)
     return (
@@ -91,7 +91,7 @@ def _mounting_notes(mounting: Mounting, device: Device) -> Iterator[str]:
         hole = format_quantity(2.0 * mount.holes.pilot_radius, "mm")
         there = "" if bare else f", besides the hole of {hole} for the rotating parts"
         which = "the motor's threads" if mounting.rotor is None else "the threads of its stator"
-        yield f"{which} are not in the catalogue: {_UNDRILLED}{there}"
+        yield f"{which} are not in the catalogue: {_DRILL_FOR_IT}{there}"
     elif mount.holes.screws is None and mounting.stator_face is Face.BACK:
         yield (
             f"the motor's threads, {stator}, are at its back, and its size is not known or its "
@@ -100,7 +100,8 @@ def _mounting_notes(mounting: Mounting, device: Device) -> Iterator[str]:
     elif mount.holes.screws is None:
         room = format_quantity(2.0 * foot_of(device).housing.inner_radius, "mm")
         yield (
-            f"the motor's screws, {stator}, do not fit the housing's floor of {room}: {_UNDRILLED}"
+            f"the motor's screws, {stator}, do not fit the housing's floor of {room}: "
+            f"{_DRILL_FOR_IT}"
         )
     bell, wheel = mount.bell, device.flywheel
     if bell is None:
@@ -128,12 +129,12 @@ def _mounting_notes(mounting: Mounting, device: Device) -> Iterator[str]:
 
 def _shaft_notes(mounting: Mounting, device: Device) -> Iterator[str]:
     """Notes on the wheel's joint: on the shaft, or on threads behind plate and floor."""
-    left, off = shaft_cut(device)
-    if off > 0.0:
+    remaining, cut_off = shaft_cut(device)
+    if cut_off > 0.0:
         yield (
-            f"the shaft would run into the lid: cut {format_quantity(off, 'mm', digits=3)} off its "
-            f"end, so that {format_quantity(left, 'mm', digits=3)} protrude from the motor, before "
-            "the motor is built in and with its bearings covered"
+            f"the shaft would run into the lid: cut {format_quantity(cut_off, 'mm', digits=3)} off "
+            f"its end, so that {format_quantity(remaining, 'mm', digits=3)} protrude from the "
+            "motor, before the motor is built in and with its bearings covered"
         )
     web, mount = device.flywheel.web, motor_mount(device)
     # A rotor in a cage reaches through plate and floor to the hub.
@@ -178,16 +179,16 @@ def _overlap_notes(device: Device, foot: Foot) -> Iterator[str]:
 def _landing_notes(device: Device, foot: Foot) -> Iterator[str]:
     """Notes on prints and screws too weak for a landing, and on speeds at which parts resonate."""
     module, modes, hold = device.module_mass, resonances_of(device), foot_hold(device)
-    bears = hold.prints_bear
+    capacity = hold.prints_bear
     heavier = _milled_heavier(foot_part(foot))
-    if bears < SHOCK:
+    if capacity < SHOCK:
         stronger = ALUMINIUM.strength / PETG.strength
         stiffer = foot_frequency(device, ALUMINIUM.modulus) / foot_frequency(device)
         sway = "".join(
             f", and let it sway at {mode.frequency:.0f} Hz" for mode in modes if mode.name == "foot"
         )
         yield (
-            f"printed in PETG, the feet take a shock of {bears / STANDARD_GRAVITY:.2g} g on "
+            f"printed in PETG, the feet take a shock of {capacity / STANDARD_GRAVITY:.2g} g on "
             f"{module:.2g} kg along the wheel's axis, not of {SHOCK / STANDARD_GRAVITY:.0f} "
             f"g{sway}: where landings are harder, mill them from 6061-T6 to the same file, at "
             f"least {stronger:.0f} times as strong, {stiffer:.2g} times as high a frequency and "
@@ -200,14 +201,14 @@ def _landing_notes(device: Device, foot: Foot) -> Iterator[str]:
             f"heads of their screws press with {1e-6 * hold.pull / hold.area:.0f} MPa even on "
             f"washers, and PETG yields at {1e-6 * PETG.strength:.0f}"
         )
-    for each in joints_of(device):
-        if each.name == FLOOR_SHOCK and each.capacity is not None and each.capacity < SHOCK:
+    for joint in joints_of(device):
+        if joint.name == FLOOR_SHOCK and joint.capacity is not None and joint.capacity < SHOCK:
             drum, _ = housing_parts(foot.housing)
             cage = motor_mount(device).cage
             parts = (drum,) if cage is None else (cage_part(cage), drum)
             yield (
                 "printed in PETG, cage and drum hold motor and wheel up to "
-                f"{each.capacity / STANDARD_GRAVITY:.2g} g along the wheel's axis, not "
+                f"{joint.capacity / STANDARD_GRAVITY:.2g} g along the wheel's axis, not "
                 f"{SHOCK / STANDARD_GRAVITY:.0f}: where landings are harder, mill both from "
                 f"6061-T6 to the same files, {' and '.join(map(_milled_heavier, parts))} heavier"
             )
@@ -227,10 +228,10 @@ def _milled_heavier(printed: Part[float]) -> str:
     return f"{1e3 * own * (ALUMINIUM.density / PETG.density - 1.0):.0f} g"
 
 
-def _overlap(parts: str, beyond: float) -> str:
-    each = format_quantity(beyond, "mm", digits=2)
+def _overlap(parts: str, length: float) -> str:
+    overlap = format_quantity(length, "mm", digits=2)
     return (
-        f"the {parts} overlap, each by {each} beyond the robot's middle plane: set the modules "
+        f"the {parts} overlap, each by {overlap} beyond the robot's middle plane: set the modules "
         "farther apart with --position"
     )
 
@@ -251,8 +252,8 @@ def trunk_notes(device: Device, robot: Robot) -> tuple[str, ...]:
             ("highest point", float(surface.heights.max()), "below", "above"),
         )
         measured = ", ".join(
-            f"{1e3 * abs(off):.1f} mm {one if off >= 0.0 else other} the {what}"
-            for what, off, one, other in ends
+            f"{1e3 * abs(gap):.1f} mm {one if gap >= 0.0 else other} the {what}"
+            for what, gap, one, other in ends
         )
         where = (
             f"the origin of the base frame lies {measured} of the trunk with all that the robot's "
@@ -266,14 +267,14 @@ def trunk_notes(device: Device, robot: Robot) -> tuple[str, ...]:
     if box is None:
         return trunk_threads(device), where
     top = float(box.position[2] + np.abs(box.rotation[2]) @ box.size)
-    standing = min(float(each.position[2]) for each in device.modules)
+    standing = min(float(module.position[2]) for module in device.modules)
     standing -= foot_of(device).wheel_height
-    off = standing - top
+    gap = standing - top
     stand = "on its top"
-    if off > ON_TOP:
-        stand = f"{1e3 * off:.1f} mm above its top, and what is between them is not designed"
-    elif off < -ON_TOP:
-        stand = f"{-1e3 * off:.1f} mm below its top, inside it"
+    if gap > ON_TOP:
+        stand = f"{1e3 * gap:.1f} mm above its top, and what is between them is not designed"
+    elif gap < -ON_TOP:
+        stand = f"{-1e3 * gap:.1f} mm below its top, inside it"
     sides = " x ".join(f"{2e3 * half:.0f}" for half in box.size)
     return (
         trunk_threads(device),

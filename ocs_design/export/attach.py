@@ -24,8 +24,10 @@ def attach_device(spec: mujoco.MjSpec, robot: Robot, device: Device) -> None:
         robot: robot that the spec was built from.
         device: its wheels turn about the z axis of their own frames.
     """
-    made, joints = list(bodies.device_bodies(device)), bodies.joint_names(device)
-    bodies.require_free("body", (body.name for body in spec.bodies), (each.name for each in made))
+    device_bodies, joints = list(bodies.device_bodies(device)), bodies.joint_names(device)
+    bodies.require_free(
+        "body", (body.name for body in spec.bodies), (body.name for body in device_bodies)
+    )
     bodies.require_free("joint", (joint.name for joint in spec.joints), joints)
     bodies.require_free("actuator", (actuator.name for actuator in spec.actuators), joints)
     bodies.require_free("geom", (geom.name for geom in spec.geoms), bodies.flywheel_names(device))
@@ -33,12 +35,12 @@ def attach_device(spec: mujoco.MjSpec, robot: Robot, device: Device) -> None:
     attached = mujoco.MjSpec()
     frame = attached.worldbody.add_frame()
     limit = bodies.largest_torque(device.motor)
-    for each in made:
-        body = inertial(each.mass_properties)
-        place = base @ each.place
+    for device_body in device_bodies:
+        body = inertial(device_body.mass_properties)
+        place = base @ device_body.place
         # Attaching prepends the prefix to the names.
         added = attached.worldbody.add_body(
-            name=each.name.removeprefix(bodies.PREFIX),
+            name=device_body.name.removeprefix(bodies.PREFIX),
             pos=place.position,
             quat=quaternion(place.rotation),
             mass=body.mass,
@@ -48,9 +50,9 @@ def attach_device(spec: mujoco.MjSpec, robot: Robot, device: Device) -> None:
             explicitinertial=True,
         )
         added.set_frame(frame)
-        if not each.joint:
+        if not device_body.joint:
             continue
-        joint = each.joint.removeprefix(bodies.PREFIX)
+        joint = device_body.joint.removeprefix(bodies.PREFIX)
         added.add_joint(
             name=joint,
             type=mujoco.mjtJoint.mjJNT_HINGE,
@@ -81,17 +83,17 @@ def add_sensors(spec: mujoco.MjSpec, robot: Robot, device: Device) -> None:
     """
     attitude, rate = bodies.IMU_SENSORS
     kinds = mujoco.mjtSensor.mjSENS_JOINTVEL, mujoco.mjtSensor.mjSENS_JOINTACTFRC
-    wanted = {
+    sensors = {
         name: (kind, _JOINT, bodies.joint_name(module))
         for module in device.modules
         for name, kind in zip(bodies.wheel_sensors(module), kinds, strict=True)
     }
-    wanted[attitude] = (mujoco.mjtSensor.mjSENS_FRAMEQUAT, _SITE, bodies.IMU)
-    wanted[rate] = (mujoco.mjtSensor.mjSENS_GYRO, _SITE, bodies.IMU)
-    bodies.require_free("sensor", (sensor.name for sensor in spec.sensors), wanted)
+    sensors[attitude] = (mujoco.mjtSensor.mjSENS_FRAMEQUAT, _SITE, bodies.IMU)
+    sensors[rate] = (mujoco.mjtSensor.mjSENS_GYRO, _SITE, bodies.IMU)
+    bodies.require_free("sensor", (sensor.name for sensor in spec.sensors), sensors)
     # A site at the base frame B, where rates and attitude are those of the paper's law.
     bodies.require_free("site", (site.name for site in spec.sites), (bodies.IMU,))
     trunk, base = trunk_body(spec, robot)
     trunk.add_site(name=bodies.IMU, pos=base.position, quat=quaternion(base.rotation))
-    for name, (kind, objtype, objname) in wanted.items():
+    for name, (kind, objtype, objname) in sensors.items():
         spec.add_sensor(name=name, type=kind, objtype=objtype, objname=objname)

@@ -104,42 +104,42 @@ def bill_rows(device: Device, margins: Sequence[Margin] = ()) -> Sequence[BillRo
         foot, mount = foot_of(device), motor_mount(device)
         drum, lid, base, *caged = (part.mass_properties().mass for part in printed_parts(device))
         size = f"{_mm(2.0 * foot.housing.radius)} x {_mm(2.0 * foot.housing.half_height)}"
-        made = (
+        how_made = (
             f"3-D print, wall {_mm(WALL)}, floor and lid {_mm(PANEL)}, "
             f"{_mm(CLEARANCE)} clear of the rim"
         )
-        rows.append(BillRow("housing", count, "PETG", size, drum + lid, made))
+        rows.append(BillRow("housing", count, "PETG", size, drum + lid, how_made))
         size = f"{_mm(2.0 * foot.base_radius)} x {_mm(foot.wheel_height)} to the axis"
-        made = "3-D print, turned to the incidence by hand"
-        rows.append(BillRow("foot", count, "PETG", size, base, made))
+        how_made = "3-D print, turned to the incidence by hand"
+        rows.append(BillRow("foot", count, "PETG", size, base, how_made))
         if mount.cage is not None:
             size = f"{_mm(2.0 * mount.cage.reach)} x {_mm(mount.cage.length)}"
-            made = "3-D print, holds the motor by its back"
-            rows.append(BillRow("cage", count, "PETG", size, caged[0], made))
+            how_made = "3-D print, holds the motor by its back"
+            rows.append(BillRow("cage", count, "PETG", size, caged[0], how_made))
         if device.guard_wall:
             mass = guard_ring(foot.housing).mass()
             inside, tall = foot.housing.guard_radius, foot.housing.guard_height
             outside = inside + device.guard_wall
             size = f"ring {_mm(2.0 * inside)} inside x {_mm(device.guard_wall)} wall x {_mm(tall)}"
-            made = (
+            how_made = (
                 "bent and welded or turned from tube, no wall thinner; outside "
                 f"{_mm(2.0 * outside)} (0/-0.2), with epoxy in a drum of "
                 f"{_mm(2.0 * foot.housing.inner_radius)}; holds a burst rim"
             )
             steel = "mild steel (S235)"
-            rows.append(BillRow("guard ring", count, steel, size, mass, made, piece="guard"))
+            rows.append(BillRow("guard ring", count, steel, size, mass, how_made, piece="guard"))
         # Screws of wheel and motor only if the catalogue has their threads.
-        screwed = (each.fastening for each in mount.screwed)
-        rows += [_screw_row(each, count) for each in (*screwed, LID_SCREWS)]
+        screwed = (ring.fastening for ring in mount.screwed)
+        rows += [_screw_row(fastening, count) for fastening in (*screwed, LID_SCREWS)]
         feet = [
             (foot_screws(device, module), counted_foot_screws(device, module).length)
             for module in device.modules
         ]
-        for held, counted in dict.fromkeys(feet):
-            row = _screw_row(held, feet.count((held, counted)))
-            if held.length != counted:
-                remark = f"{row.remark}; weighed as {held.screw.designation(counted)}"
-                row = replace(row, mass=held.screw.mass(counted), remark=remark)
+        for fastening, nominal_length in dict.fromkeys(feet):
+            row = _screw_row(fastening, feet.count((fastening, nominal_length)))
+            if fastening.length != nominal_length:
+                remark = f"{row.remark}; weighed as {fastening.screw.designation(nominal_length)}"
+                row = replace(row, mass=fastening.screw.mass(nominal_length), remark=remark)
             rows.append(row)
     return [*rows, *_support_rows(device), *_unweighed_rows(device, margins)]
 
@@ -148,71 +148,75 @@ def _support_rows(device: Device) -> Iterator[BillRow]:
     """Supports of the feet: plate, mast and sleeves, or pedestals, each with its screws."""
     plate = device.plate
     if plate is not None:
-        of, size = plate.material, " x ".join(map(_mm, plate.sizes))
-        made = (
+        material, size = plate.material, " x ".join(map(_mm, plate.sizes))
+        remark = (
             "milled or cut by water jet to plate.pdf (outline: `export --formats dxf`), "
             f"neck {_mm(2.0 * plate.neck)}; "
             f"{len(plate.feet) // len(plate.rows)} threads {plate.foot_thread} for the feet"
         )
         mass = plate_part(plate.single_plates[0]).mass()
-        yield BillRow("plate under the feet", len(plate.rows), of, size, mass, made, piece="plate")
-        mast, under = plate.mast, "plate"
+        yield BillRow(
+            "plate under the feet", len(plate.rows), material, size, mass, remark, piece="plate"
+        )
+        mast, support = plate.mast, "plate"
         tube = f"tube {_mm(2.0 * plate.sleeve_radius)} x {_mm(plate.sleeve_wall)} wall"
         if mast is not None:
-            stock, under = f"square tube {_mm(mast.side)} x {_mm(mast.wall)}", "mast"
+            stock, support = f"square tube {_mm(mast.side)} x {_mm(mast.wall)}", "mast"
             flat = mast.spacer > 0.0 and not mast.formed
             spacer = f", a block of {_mm(mast.spacer)} before it" if flat else ""
             count = len(plate.rows)
-            arms, each = ("one arm", "it") if count == 1 else (f"{count} arms", "each")
-            made = (
+            arms, per_arm = ("one arm", "it") if count == 1 else (f"{count} arms", "each")
+            remark = (
                 f"upright of {_mm(mast.high - mast.low)}{spacer}, {arms} of "
-                f"{_mm(mast.back + plate.neck)}, welded, and a plate on {each}"
+                f"{_mm(mast.back + plate.neck)}, welded, and a plate on {per_arm}"
             )
             mass = mast_part(plate, mast).mass()
-            yield BillRow("mast", 1, of, stock, mass, made, piece="mast")
+            yield BillRow("mast", 1, material, stock, mass, remark, piece="mast")
             if plate.relief is not None:
                 low, high = plate.block
                 size = " x ".join(map(_mm, (mast.side, high - low, mast.off)))
-                made = (
+                remark = (
                     "milled to block.stl or block.step, its front shaped to the trunk; welded "
                     "before the upright and drilled with it"
                 )
                 mass = block_part(plate, plate.relief).mass()
-                yield BillRow("block of the mast", 1, of, size, mass, made, piece=BLOCK)
-            made = f"cut to {_mm(mast.bore)}, in the upright around each screw"
+                yield BillRow("block of the mast", 1, material, size, mass, remark, piece=BLOCK)
+            remark = f"cut to {_mm(mast.bore)}, in the upright around each screw"
             mass, count = sleeve_part(plate, mast.bore).mass(), len(plate.trunk)
-            yield BillRow("sleeve in the mast", count, of, tube, mass, made, piece="sleeves")
+            yield BillRow(
+                "sleeve in the mast", count, material, tube, mass, remark, piece="sleeves"
+            )
         for length in sorted({length for length in plate.sleeves if length > 0.0}):
             shims = ", or shim washers" if length < SHIM else ""
-            made = f"cut to {_mm(length)}{shims}, between {under} and trunk"
+            remark = f"cut to {_mm(length)}{shims}, between {support} and trunk"
             count, mass = plate.sleeves.count(length), sleeve_part(plate, length).mass()
-            what = f"sleeve under the {under}"
-            yield BillRow(what, count, of, tube, mass, made, piece="sleeves")
-        for held in plate.fastenings:
-            yield _screw_row(held, 1)
+            what = f"sleeve under the {support}"
+            yield BillRow(what, count, material, tube, mass, remark, piece="sleeves")
+        for fastening in plate.fastenings:
+            yield _screw_row(fastening, 1)
     for kind in pedestal_kinds(device):
         one, count = kind.alike[0], len(kind.alike)
-        made = (
+        remark = (
             f"3-D print, lying on its side, {kind.name}.stl; seat and brace {_mm(one.thickness)}, "
             f"base {_mm(one.base)}; tap its 2 holes {TRUNK_SCREW.name} for the foot's screws"
         )
         size = " x ".join(map(_mm, one.sizes))
-        whose = " and ".join(each.module for each in kind.alike)
-        yield BillRow(f"pedestal of {whose}", count, "PETG", size, kind.part.mass(), made)
+        modules = " and ".join(pedestal.module for pedestal in kind.alike)
+        yield BillRow(f"pedestal of {modules}", count, "PETG", size, kind.part.mass(), remark)
         yield _screw_row(kind.screws, count)
 
 
-def _screw_row(held: Fastening, modules: int) -> BillRow:
+def _screw_row(fastening: Fastening, modules: int) -> BillRow:
     """Row of equal screws of that many modules."""
-    name, count = f"screw {held.designation}", modules * held.count
+    name, count = f"screw {fastening.designation}", modules * fastening.count
     source = f"mass from its dimensions in ISO 4762, steel of {STEEL:g} kg/m^3"
-    remark, kind = held.purpose, held.screw
-    if held.length > kind.usual_length + 1e-9:
+    remark, kind = fastening.purpose, fastening.screw
+    if fastening.length > kind.usual_length + 1e-9:
         usual = f"{1e3 * kind.usual_length:.0f} mm, ISO 4762"
         remark += f"; longer than {kind.name} is usually sold ({usual}): may be a special order"
     # The capacity of a joint depends on the class: stainless A2-70 yields at 450 MPa, 8.8 at 640.
-    steel = f"steel, class {held.strength}"
-    return BillRow(name, count, steel, "", kind.mass(held.length), remark, source)
+    steel = f"steel, class {fastening.strength}"
+    return BillRow(name, count, steel, "", kind.mass(fastening.length), remark, source)
 
 
 def _unweighed_rows(device: Device, margins: Sequence[Margin]) -> Iterator[BillRow]:
@@ -269,8 +273,8 @@ def _unweighed_rows(device: Device, margins: Sequence[Margin]) -> Iterator[BillR
     if unheld_moment(device, margins):
         where = "through a foot's base into what it stands on; not in the mass"
         yield BillRow("pin of 3 mm", len(device.modules), "steel", "", 0.0, where)
-    screwed = (each.fastening for each in motor_mount(device).screwed)
-    if any(not each.joint.in_print for each in screwed):
+    screwed = (ring.fastening for ring in motor_mount(device).screwed)
+    if any(not fastening.joint.in_print for fastening in screwed):
         where = "medium strength, removable; screws in metal only: it attacks prints"
         yield BillRow("threadlocker", 1, "", "", 0.0, where)
 
@@ -310,7 +314,7 @@ def plain(text: str) -> str:
 
 def _wheel_rows(wheel: Flywheel, count: int) -> Iterator[BillRow]:
     """Rows of the wheel: one piece if rim and web are of one material, else a rim on its web."""
-    web, cuts, of = wheel.web, wheel.cuts, wheel.material
+    web, cuts, material = wheel.web, wheel.cuts, wheel.material
     rim = f"turned to {_mm(2.0 * wheel.outer_radius)} x {_mm(wheel.height)}"
     if cuts.chamfer:
         rim += f", edges {_mm(cuts.chamfer)} x 45 deg"
@@ -320,18 +324,22 @@ def _wheel_rows(wheel: Flywheel, count: int) -> Iterator[BillRow]:
     bore = f", bore {_mm(2.0 * wheel.inner_radius)}" if wheel.inner_radius > 0.0 else ""
     if web is None:
         stock = _stock(wheel.outer_radius, wheel.inner_radius, wheel.height)
-        yield BillRow("flywheel rim", count, of, stock, wheel.mass, rim + bore, piece="flywheel")
+        yield BillRow(
+            "flywheel rim", count, material, stock, wheel.mass, rim + bore, piece="flywheel"
+        )
     elif web.material == wheel.material:
         stock = _stock(wheel.outer_radius, 0.0, max(wheel.height, web.hub.height))
-        made = f"{rim}, {_web_text(web)}"
-        yield BillRow("flywheel, one piece", count, of, stock, wheel.mass, made, piece="flywheel")
+        remark = f"{rim}, {_web_text(web)}"
+        yield BillRow(
+            "flywheel, one piece", count, material, stock, wheel.mass, remark, piece="flywheel"
+        )
     else:
         stock = _stock(wheel.outer_radius, wheel.inner_radius, wheel.height)
         seat = f"{rim}{bore}, seated on the web"
-        yield BillRow("flywheel rim", count, of, stock, wheel.rim_mass, seat, piece="rim")
-        of, made = web.material, _web_text(web)
+        yield BillRow("flywheel rim", count, material, stock, wheel.rim_mass, seat, piece="rim")
+        material, remark = web.material, _web_text(web)
         stock = _stock(wheel.inner_radius, 0.0, max(web.thickness, web.hub.height))
-        yield BillRow("flywheel web and hub", count, of, stock, web.mass, made, piece="hub")
+        yield BillRow("flywheel web and hub", count, material, stock, web.mass, remark, piece="hub")
 
 
 def _web_text(web: Web) -> str:

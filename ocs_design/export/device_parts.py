@@ -62,13 +62,15 @@ def foot_holes(device: Device) -> Mapping[str, tuple[tuple[float, float], ...]]:
     They are at 45 degrees to the lateral direction, on the wheel axis's side of it. Modules that
     are not upright have none.
     """
-    off, found = foot_of(device).slot_radius / sqrt(2.0), {}
+    offset, holes = foot_of(device).slot_radius / sqrt(2.0), {}
     stands = device.layout.stands(device.incidence)
     for module in compress(device.modules, stands):
         slope = copysign(1.0, float(module.axis[0] * module.axis[1]))
         x, y, _ = (float(value) for value in module.position)
-        found[module.name] = tuple((x + side * slope * off, y + side * off) for side in (1.0, -1.0))
-    return found
+        holes[module.name] = tuple(
+            (x + side * slope * offset, y + side * offset) for side in (1.0, -1.0)
+        )
+    return holes
 
 
 def trunk_holes(plate: CarrierPlate) -> list[tuple[float, float]]:
@@ -103,9 +105,11 @@ class PedestalKind:
 def pedestal_kinds(device: Device) -> tuple[PedestalKind, ...]:
     """Pedestals grouped by shape."""
     kinds: dict[bytes, tuple[Pedestal, ...]] = {}
-    for each in device.pedestals:
-        shape = np.round([each.lean, each.middle, each.thickness, each.base], 9).tobytes()
-        kinds[shape] = (*kinds.get(shape, ()), each)
+    for pedestal in device.pedestals:
+        shape = np.round(
+            [pedestal.lean, pedestal.middle, pedestal.thickness, pedestal.base], 9
+        ).tobytes()
+        kinds[shape] = (*kinds.get(shape, ()), pedestal)
     if len(kinds) == 1:
         return (PedestalKind("pedestal", device.pedestals),)
     return tuple(PedestalKind(f"pedestal_{kind[0].module}", kind) for kind in kinds.values())

@@ -104,11 +104,12 @@ class Drilling:
                 f"At the crosses it would have {len(self.holes)} holes for {self.screw.name}; "
                 f"{frame}. Thin lines: {self.standing}. Design {self.identity}.",
             )
-        ends = dict.fromkeys(f"{MILLIMETRES * each:.1f}" for each in self.reach)
+        ends = dict.fromkeys(f"{MILLIMETRES * length:.1f}" for length in self.reach)
         # One pitch more than the screws' reach.
         thread = round_outwards(self.reach[1] + self.screw.pitch, upwards=True, digits=2)
         deep, blind = (
-            format_quantity(each, "mm", digits=2) for each in (thread, thread + self.screw.diameter)
+            format_quantity(depth, "mm", digits=2)
+            for depth in (thread, thread + self.screw.diameter)
         )
         jig = []
         if self.tilt > 0.0:
@@ -144,22 +145,25 @@ def drilling_of(subject: Subject) -> Drilling | None:
         return None
     plate, foot, standing = device.plate, foot_of(device), foot_holes(device)
     feet = [place for places in standing.values() for place in places]
-    pedestals = [place for each in device.pedestals for place in each.in_base(each.holes)]
+    pedestals = [
+        place for pedestal in device.pedestals for place in pedestal.in_base(pedestal.holes)
+    ]
     if not feet and not pedestals:
         return None
+    on_trunk = [module for module in device.modules if module.name in standing]
     mast = None if plate is None else plate.mast
     # Least engagement of the threads, and their depth for a screw on a short sleeve.
     if plate is None:
         holes, thread = _millimetres([*feet, *pedestals]), TRUNK_SCREW
-        screws = [each.base_screws for each in device.pedestals]
-        screws += [foot_screws(device, each) for each in device.modules if each.name in standing]
-        reach = [each.length - each.thickness for each in screws]
+        screws = [pedestal.base_screws for pedestal in device.pedestals]
+        screws += [foot_screws(device, module) for module in on_trunk]
+        reach = [screw_set.length - screw_set.thickness for screw_set in screws]
     else:
-        own = trunk_holes(plate)
-        holes = _millimetres(own if mast is None else [(z, y) for y, z in own])
+        trunk_places = trunk_holes(plate)
+        holes = _millimetres(trunk_places if mast is None else [(z, y) for y, z in trunk_places])
         thread = plate.screw
-        held = zip(plate.screw_lengths, plate.gaps, strict=True)
-        reach = [length - plate.clamped - gap for length, gap in held]
+        lengths_and_gaps = zip(plate.screw_lengths, plate.gaps, strict=True)
+        reach = [length - plate.clamped - gap for length, gap in lengths_and_gaps]
     radius = MILLIMETRES * thread.tapping_drill / 2.0
     marks: list[Item] = [
         *centre_lines((0.0, 0.0), 3.0 * CROSS),
@@ -172,19 +176,20 @@ def drilling_of(subject: Subject) -> Drilling | None:
         )
         marks += [Circle(hole, radius), *centre_lines(hole, radius + CROSS), words]
     items: list[Item] = []
-    for module in (each for each in device.modules if each.name in standing and mast is None):
+    for module in on_trunk if mast is None else ():
         (middle,) = _millimetres([(float(module.position[0]), float(module.position[1]))])
         base = MILLIMETRES * foot.base_radius
         items += [Circle(middle, base, THIN), *centre_lines(middle, CROSS)]
         items.append(
             Lettering((middle[0] + base / 2.0, middle[1]), part_name("foot", module.name), 2.5)
         )
-    for each in device.pedestals:
-        side, near, far = each.width / 2.0, -each.flange, each.length + each.flange
-        around = [(-side, near), (side, near), (side, far), (-side, far), (0.0, each.length / 2.0)]
-        *rim, inside = _millimetres(each.in_base(around))
+    for pedestal in device.pedestals:
+        side = pedestal.width / 2.0
+        near_end, far_end = -pedestal.flange, pedestal.length + pedestal.flange
+        around = *rectangle(-side, near_end, side, far_end), (0.0, pedestal.length / 2.0)
+        *rim, inside = _millimetres(pedestal.in_base(around))
         items.append(Polyline((*rim, rim[0]), THIN))
-        items.append(Lettering(inside, part_name("pedestal", each.module), 2.5))
+        items.append(Lettering(inside, part_name("pedestal", pedestal.module), 2.5))
     if plate is not None and mast is not None:
         low, high = (MILLIMETRES * (plate.position[2] + end) for end in (mast.low, mast.high))
         half = MILLIMETRES * mast.side / 2.0
@@ -194,7 +199,7 @@ def drilling_of(subject: Subject) -> Drilling | None:
         for shape in plate.shapes:
             corners = _millimetres((flat_outline(shape.outline()) + plate.position[:2]).tolist())
             items.append(Polyline((*corners, corners[0]), THIN))
-        items += [Circle(each, radius, THIN) for each in _millimetres(feet)]
+        items += [Circle(foot_hole, radius, THIN) for foot_hole in _millimetres(feet)]
     stands = {
         "feet": standing and mast is None,
         "pedestals": device.pedestals,
@@ -242,7 +247,7 @@ def pages(drilling: Drilling) -> Iterator[list[Item]]:
     if across * along == 1:
         # Centred without its words, as far as there is space for them.
         low, right_end, high, left_end = bounds(
-            each for each in shown if not isinstance(each, Lettering)
+            item for item in shown if not isinstance(item, Lettering)
         )
         spare_x, spare_y = (height - (front - back)) / 2.0, (width - (leftmost - rightmost)) / 2.0
         aim = (low + high) / 2.0, (right_end + left_end) / 2.0

@@ -26,9 +26,9 @@ def controllers(motor: Drive) -> str:
         for kind in (TorqueConstantConvention.FOC, TorqueConstantConvention.FOC_RMS)
     )
     return (
-        f"at least {more}{_up(current)} A through two lines (six-step), which field-oriented "
-        f"control counts as {_up(amplitude)} A of amplitude or {_up(effective)} A rms of a "
-        f"phase; rated for {_up(VOLTAGE_RESERVE * voltage)} V or more"
+        f"at least {more}{_ceil(current)} A through two lines (six-step), which field-oriented "
+        f"control counts as {_ceil(amplitude)} A of amplitude or {_ceil(effective)} A rms of a "
+        f"phase; rated for {_ceil(VOLTAGE_RESERVE * voltage)} V or more"
     )
 
 
@@ -44,8 +44,8 @@ def battery(motor: Drive, margins: Sequence[Margin]) -> str:
         )
         if current is not None:
             power = power or (None if voltage is None else current * voltage)
-            watts = "" if power is None else f" ({_up(power)} W)"
-            parts.append(f"{does} at least {_up(current)} A{watts}")
+            watts = "" if power is None else f" ({_ceil(power)} W)"
+            parts.append(f"{does} at least {_ceil(current)} A{watts}")
     at = "" if voltage is None else f" at {voltage:g} V"
     energies = [
         f"{significant(energy, 3)} J {way}"
@@ -63,11 +63,11 @@ def wiring_parts(device: Device, margins: Sequence[Margin]) -> Iterator[tuple[st
     if voltage is None:
         return
     bus = _bus_current(margins)
-    rated = f"{_up(VOLTAGE_RESERVE * voltage)} V DC or more"
+    rated = f"{_ceil(VOLTAGE_RESERVE * voltage)} V DC or more"
     flows = (
         f"rated for {rated}"
         if bus is None
-        else f"{_up(bus)} A for the length of a maneuver; rated for {rated}"
+        else f"{_ceil(bus)} A for the length of a maneuver; rated for {rated}"
     )
     fastest = motor.top_speed * motor.gear_ratio
     up_to = f", up to {rpm(fastest)}" if math.isfinite(fastest) else ""
@@ -79,12 +79,12 @@ def wiring_parts(device: Device, margins: Sequence[Margin]) -> Iterator[tuple[st
     )
     fuse = ""
     if bus is not None:
-        usual = next((each for each in FUSES if each >= bus), _up(bus))
+        usual = next((rating for rating in FUSES if rating >= bus), _ceil(bus))
         fuse = f"; the next usual rating is {usual} A"
     yield "fuse with holder", 1, f"between battery and switch: {flows}{fuse}"
     yield "switch", 1, f"within reach; carries and breaks {flows}"
     yield "bus cables, two wires", 1, f"battery to controllers, short: {flows}"
-    least = "" if current is None else f": each wire for {_up(current)} A at the torque limit"
+    least = "" if current is None else f": each wire for {_ceil(current)} A at the torque limit"
     yield "motor cables, three wires", count, f"controller to motor{least}; plus the sensor's cable"
     yield (
         "connectors, a set",
@@ -111,12 +111,12 @@ def wiring(device: Device, margins: Sequence[Margin]) -> Iterator[str]:
     counted = "but controllers are" if motor.controller_mass > 0.0 else "nor are controllers"
     if motor.bus_voltage is None:
         return
-    each = "a controller next to the motor"
+    controllers_text = "a controller next to the motor"
     if count > 1:
-        each = f"one bus for all - {count} controllers, each next to its motor"
+        controllers_text = f"one bus for all - {count} controllers, each next to its motor"
     yield (
         f"Battery ({motor.bus_voltage:g} V) - fuse and switch - "
-        f"{each} - three wires to {'the' if count == 1 else 'each'} motor. "
+        f"{controllers_text} - three wires to {'the' if count == 1 else 'each'} motor. "
         "Keep the bus short: its inductance adds to every spike."
     )
     if rating:
@@ -150,8 +150,8 @@ def wiring(device: Device, margins: Sequence[Margin]) -> Iterator[str]:
         limits.append(f"{significant(supply.power_max, 4)} W")
     if limits:
         bus = _bus_current(margins)
-        taken = "" if bus is None else f"; its maneuvers take up to {_up(bus)} A of it"
-        least = "what a maneuver takes" if bus is None else f"{_up(bus)} A"
+        taken = "" if bus is None else f"; its maneuvers take up to {_ceil(bus)} A of it"
+        least = "what a maneuver takes" if bus is None else f"{_ceil(bus)} A"
         yield (
             f"The design keeps all motors together within a supply of {' and '.join(limits)}, "
             f"drawn or fed back{taken}. Where a controller limits its own bus current, set that "
@@ -172,7 +172,7 @@ def _settings(motor: Drive) -> Iterator[str]:
         return
     per_amplitude = k_t * six_step_current(1.0, TorqueConstantConvention.FOC)
     fastest, idle = motor.gear_ratio * motor.top_speed, motor.no_load_current
-    limits = [f"{_up(current)} A through two lines"]
+    limits = [f"{_ceil(current)} A through two lines"]
     if math.isfinite(fastest):
         limits.append(rpm(fastest))
     friction = (
@@ -190,13 +190,13 @@ def _settings(motor: Drive) -> Iterator[str]:
 
 def _bus_current(margins: Sequence[Margin]) -> float | None:
     """Largest total current that the motors draw or feed back [A]; None: none is recorded."""
-    asked = (demand_of(margins, f"bus current{way}") for way in ("", ", drawn", ", fed back"))
-    return max((each for each in asked if each is not None), default=None)
+    demands = (demand_of(margins, f"bus current{way}") for way in ("", ", drawn", ", fed back"))
+    return max((demand for demand in demands if demand is not None), default=None)
 
 
 def demand_of(margins: Sequence[Margin], *names: str) -> float | None:
     """Demand of the first margin with one of these names, SI; None: none is recorded."""
-    return next((each.demand for each in margins if each.name in names), None)
+    return next((margin.demand for margin in margins if margin.name in names), None)
 
 
 def motor_current(motor: Drive) -> float | None:
@@ -217,9 +217,11 @@ def controller_rating(motor: Drive) -> str:
     current = motor_current(motor)
     if current is None or motor.bus_voltage is None:
         return ""
-    return f"{'more than ' if _saturates(motor) else ''}{_up(current)} A at {motor.bus_voltage:g} V"
+    return (
+        f"{'more than ' if _saturates(motor) else ''}{_ceil(current)} A at {motor.bus_voltage:g} V"
+    )
 
 
-def _up(figure: float) -> int:
+def _ceil(figure: float) -> int:
     """Next whole number; a whole number with a rounding error stays."""
     return math.ceil(round(figure, 6))

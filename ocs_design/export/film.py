@@ -81,12 +81,12 @@ def film_model(robot: Robot, device: Device, *, ocs: bool) -> mujoco.MjModel:
     model = robot_model(robot, device)
     add_white_sky(model.spec)
     show_floor(model.spec, model.compiled.stat.extent)
-    found = compiled(model.spec)
-    found.opt.gravity[:] = 0.0
+    film = compiled(model.spec)
+    film.opt.gravity[:] = 0.0
     if not ocs:
-        bodies = [found.body(each.name).id for each in device_bodies(device)]
-        found.geom_group[np.isin(found.geom_bodyid, bodies)] = HIDDEN_GROUP
-    return found
+        bodies = [film.body(body.name).id for body in device_bodies(device)]
+        film.geom_group[np.isin(film.geom_bodyid, bodies)] = HIDDEN_GROUP
+    return film
 
 
 def render_takes(takes: Sequence[Take]) -> list[Frames]:
@@ -95,10 +95,10 @@ def render_takes(takes: Sequence[Take]) -> list[Frames]:
     Raises:
         MissingToolError: OpenGL does not work here; the message says why.
     """
-    return drawn(takes, "frames", np.load, "video")
+    return rendered(takes, "frames", np.load, "video")
 
 
-def drawn(takes: Iterable[Take], kind: str, read: Callable[[Path], T], what: str) -> list[T]:
+def rendered(takes: Iterable[Take], kind: str, read: Callable[[Path], T], what: str) -> list[T]:
     """Results of the rendering process, one for each take; raises like `programs.draw`.
 
     Args:

@@ -171,8 +171,8 @@ def file_hashes(folder: Path) -> Mapping[str, str]:
 
 def recorded_hashes(folder: Path) -> Mapping[str, str]:
     """Hashes that a design records: of all files except those that contain the design itself."""
-    found = file_hashes(folder)
-    return {name: found[name] for name in found if name not in (DESIGN_FILE, REPORT_FILE)}
+    hashes = file_hashes(folder)
+    return {name: hashes[name] for name in hashes if name not in (DESIGN_FILE, REPORT_FILE)}
 
 
 def exchange(one: Path, other: Path) -> bool:

@@ -62,7 +62,7 @@ class Documented:
         """The device with the margins, notes and open points that its design records."""
         # With a robot of unknown geometry, open points do not refuse the device, but must be shown.
         known = design.buildable.yes is not None
-        points = () if known else (f"{each.what}; {each.cure}" for each in design.buildable.open)
+        points = () if known else (f"{point.what}; {point.cure}" for point in design.buildable.open)
         return replace(
             self,
             device=replace(self.device, supply=design.supply),
@@ -102,7 +102,9 @@ def refusal(buildable: "Buildable") -> str:
     """Sentences on why a device cannot be built, and the cure; empty if it can."""
     if buildable.yes is not False:
         return ""
-    points = (f"{each.what[:1].upper()}{each.what[1:]}; {each.cure}." for each in buildable.open)
+    points = (
+        f"{point.what[:1].upper()}{point.what[1:]}; {point.cure}." for point in buildable.open
+    )
     return " ".join(("NOT buildable as it stands.", *points))
 
 
@@ -189,7 +191,7 @@ FORMATS = (
 )
 """All formats, in writing order."""
 
-USUAL_FORMATS = tuple(each for each in FORMATS if not each.on_request)
+USUAL_FORMATS = tuple(entry for entry in FORMATS if not entry.on_request)
 """Formats that are written by default."""
 
 ALL = "all"
@@ -206,19 +208,21 @@ def formats_named(names: Collection[str], others: Collection[str] = ()) -> tuple
     """
     if not names:
         return USUAL_FORMATS
-    known = (*(each.name for each in FORMATS), *others, ALL)
+    known = (*(file_format.name for file_format in FORMATS), *others, ALL)
     for name in names:
         if name not in known:
             available = ", ".join(known)
             raise UsageError(f"there is no format '{name}'", hint=f"available: {available}")
-    return tuple(each for each in FORMATS if ALL in names or each.name in names)
+    return tuple(
+        file_format for file_format in FORMATS if ALL in names or file_format.name in names
+    )
 
 
 def export_formats(subject: Subject, formats: Collection[Format], folder: Path) -> Notes:
     """Write a device in these formats into their folders below `folder`."""
     notes: list[str] = []
-    for each in formats:
-        target = folder / each.folder
+    for file_format in formats:
+        target = folder / file_format.folder
         target.mkdir(exist_ok=True)
-        notes += each.write(subject, target)
+        notes += file_format.write(subject, target)
     return tuple(dict.fromkeys(notes))

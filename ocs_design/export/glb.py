@@ -103,7 +103,7 @@ class _Scene:
 
     def _bodies_on(self, parent: int, parent_place: Placement) -> list[int]:
         """Nodes of a body's children; `parent_place` is its frame in the world."""
-        model, found = self._model, []
+        model, children = self._model, []
         # The world is its own parent.
         for child in filter(None, np.flatnonzero(model.body_parentid == parent).tolist()):
             data, first = self._data.body(child), model.body_geomadr[child]
@@ -111,8 +111,8 @@ class _Scene:
             geoms = map(self._geom, range(first, first + model.body_geomnum[child]))
             nodes = [node for node in geoms if node is not None]
             nodes += self._bodies_on(child, place)
-            found.append(self._add_node(data.name, parent_place.inverse() @ place, nodes))
-        return found
+            children.append(self._add_node(data.name, parent_place.inverse() @ place, nodes))
+        return children
 
     def _geom(self, geom: int) -> int | None:
         """Node of a geom; None if it is hidden or has no surface."""
@@ -123,13 +123,15 @@ class _Scene:
         is_mesh = kind in {mujoco.mjtGeom.mjGEOM_MESH, mujoco.mjtGeom.mjGEOM_SDF}
         key = (kind, source) if is_mesh else (kind, *model.geom_size[geom].tolist())
         if key not in self._surfaces:
-            found = geom_mesh(model, geom)
-            if found is None:
+            surface_mesh = geom_mesh(model, geom)
+            if surface_mesh is None:
                 return None
             # A surface that meshes may share, keyed by its vertices and faces.
-            vertices = np.ascontiguousarray(found.vertices, dtype="<f4")
+            vertices = np.ascontiguousarray(surface_mesh.vertices, dtype="<f4")
             small = len(vertices) <= _MOST_UINT16
-            corners = np.ascontiguousarray(found.triangles, dtype="<u2" if small else "<u4").ravel()
+            corners = np.ascontiguousarray(
+                surface_mesh.triangles, dtype="<u2" if small else "<u4"
+            ).ravel()
             points = self._accessor(vertices.tobytes(), _VERTICES, _FLOAT, len(vertices), "VEC3")
             self._accessors[points]["min"] = vertices.min(axis=0).tolist()
             self._accessors[points]["max"] = vertices.max(axis=0).tolist()

@@ -64,10 +64,10 @@ def part_mesh(part: Part, sections: int = SECTIONS) -> Mesh:
     """
     if len(part.joined) == 1 and not part.cut:
         return solid_mesh(part.joined[0], sections)
-    found = part_manifold(part, sections).to_mesh64()
+    mesh = part_manifold(part, sections).to_mesh64()
     return Mesh(
-        np.asarray(found.vert_properties, dtype=np.float64),
-        np.asarray(found.tri_verts, dtype=np.int64),
+        np.asarray(mesh.vert_properties, dtype=np.float64),
+        np.asarray(mesh.tri_verts, dtype=np.int64),
     )
 
 
@@ -94,8 +94,8 @@ def part_manifold(part: Part, sections: int = SECTIONS) -> "Manifold":
         ]
         for solids in (part.joined, part.cut)
     )
-    whole = Manifold.batch_boolean(joined, OpType.Add)
-    return Manifold.batch_boolean([whole, *cut], OpType.Subtract)
+    union = Manifold.batch_boolean(joined, OpType.Add)
+    return Manifold.batch_boolean([union, *cut], OpType.Subtract)
 
 
 def solid_mesh(solid: Solid, sections: int = SECTIONS) -> Mesh:
@@ -120,9 +120,9 @@ def solid_mesh(solid: Solid, sections: int = SECTIONS) -> Mesh:
         case Relief():
             if not solid.holes:
                 return _relief_mesh(solid).placed(solid.placement)
-            beyond = 0.1 * float(solid.heights.max())
+            overhang = 0.1 * float(solid.heights.max())
             cut = tuple(
-                Prism(Disc(radius, (x, y)), -beyond, 11.0 * beyond, solid.placement)
+                Prism(Disc(radius, (x, y)), -overhang, 11.0 * overhang, solid.placement)
                 for x, y, radius in solid.holes
             )
             block = Part("block", 1.0, (replace(solid, holes=()),), cut)
@@ -138,7 +138,7 @@ def _relief_mesh(relief: Relief) -> Mesh:
     for face, order in ((upper, (0, 1, 2)), (lower, (0, 2, 1))):
         a, b, c, d = face[:-1, :-1], face[1:, :-1], face[1:, 1:], face[:-1, 1:]
         corners += [
-            np.stack([three[each] for each in order], axis=2).reshape(-1, 3, 3)
+            np.stack([three[corner] for corner in order], axis=2).reshape(-1, 3, 3)
             for three in ((a, b, c), (a, c, d))
         ]
     # Counter-clockwise from above, as rings on both faces.

@@ -33,7 +33,7 @@ _SIDE = np.array([0.83, -1.18, 0.39])
 """Position of the scene's camera from the robot, relative to its extent: matches `xyaxes` in the
 template."""
 
-_PRINTED = 1e-5
+_PRINT_ERROR = 1e-5
 """Relative error of six printed digits."""
 
 _NAMES = {"polycoef": "data"}
@@ -84,7 +84,7 @@ def scene_xml(model: RobotModel, data: mujoco.MjData, file: str, name: str) -> s
     robot = compiled.geom_bodyid > 0
     low, high = shown_box(compiled, data)
     extent = float(np.linalg.norm(high - low))
-    sky = any(each.type == mujoco.mjtTexture.mjTEXTURE_SKYBOX for each in model.spec.textures)
+    sky = any(texture.type == mujoco.mjtTexture.mjTEXTURE_SKYBOX for texture in model.spec.textures)
     return fill(
         "scene.xml",
         {
@@ -132,16 +132,20 @@ def readme(subject: Subject, data: mujoco.MjData, file: str, picture: str) -> st
         else format_quantity(torque, "N m"),
         "standing height of the trunk's frame": format_quantity(float(data.site(IMU).xpos[2]), "m"),
     }
-    own = "The robot's own actuators, unchanged; `ocs_home` has commands for those on joints."
+    own_actuators = (
+        "The robot's own actuators, unchanged; `ocs_home` has commands for those on joints."
+    )
     drives = (
         f"{len(legs)} position servos, one for each leg joint and named after it: kp from weight "
         "and length of the leg, kv from its Froude time, the force limited to the file's effort. "
         "The flights use the same."
     )
-    held = [each.name for each in model.spec.equalities if each.name.startswith(HOLD)]
+    held_joints = [
+        equality.name for equality in model.spec.equalities if equality.name.startswith(HOLD)
+    ]
     others = (
-        f"- **Other joints.** {len(held)} joints outside the legs are held in the posture by the "
-        f"equalities `{HOLD}...`, as in the flights. Disable them to drive these joints.\n"
+        f"- **Other joints.** {len(held_joints)} joints outside the legs are held in the posture "
+        f"by the equalities `{HOLD}...`, as in the flights. Disable them to drive these joints.\n"
     )
     values = {
         "name": subject.name,
@@ -156,8 +160,8 @@ def readme(subject: Subject, data: mujoco.MjData, file: str, picture: str) -> st
         "stands": "It stands by itself."
         if len(robot.legs) >= STEADY_LEGS
         else "On fewer than three legs it does not balance by itself, and falls.",
-        "legs": (drives if legs else "None was recognised.") if model.driven else own,
-        "others": others if held else "",
+        "legs": (drives if legs else "None was recognised.") if model.driven else own_actuators,
+        "others": others if held_joints else "",
         "contact": "The robot's own contacts are as in its file"
         if robot.format is RobotFormat.MJCF
         else "Links collide with floors and objects, not with each other, as in the flights",
@@ -175,7 +179,7 @@ def precise_xml(spec: mujoco.MjSpec, model: mujoco.MjModel, *, assets: str) -> s
     for compiler in root.iter("compiler"):
         compiler.attrib.update(meshdir=assets, texturedir=assets)
     for option in root.iter("option"):
-        _sharpen(option, [model.opt])
+        _restore_digits(option, [model.opt])
     # Elements with numbers, by section and tag, and the objects that they were printed from.
     for section, tags, objects in (
         ("worldbody", ("body",), spec.bodies[1:]),
@@ -193,7 +197,11 @@ def precise_xml(spec: mujoco.MjSpec, model: mujoco.MjModel, *, assets: str) -> s
             continue
         elements = [e for e in top.iter() if e is not top and (e.tag in tags or not tags)]
         # Matched by name if there is one, else by position.
-        named = {name: each for each in objects if (name := getattr(each, "name", ""))}
+        named = {
+            name: element_object
+            for element_object in objects
+            if (name := getattr(element_object, "name", ""))
+        }
         for element, same_place in zip(elements, objects, strict=False):
             source = named.get(element.get("name", ""), same_place)
             sources = [source]
@@ -203,14 +211,14 @@ def precise_xml(spec: mujoco.MjSpec, model: mujoco.MjModel, *, assets: str) -> s
                     sources.append(model.actuator(source.id))
                 case mujoco.MjsBody() | mujoco.MjsJoint() | mujoco.MjsGeom() | mujoco.MjsSite():
                     sources.append(getattr(model, element.tag)(source.id))
-            _sharpen(element, sources)
+            _restore_digits(element, sources)
             for inertial in element.findall("inertial"):
-                _sharpen(inertial, sources[1:], _INERTIAL_NAMES)
+                _restore_digits(inertial, sources[1:], _INERTIAL_NAMES)
     ET.indent(root)
     return ET.tostring(root, encoding="unicode") + "\n"
 
 
-def _sharpen(
+def _restore_digits(
     element: ET.Element, sources: Sequence[object], names: Mapping[str, str] = _NAMES
 ) -> None:
     """Replace printed numbers by the exact ones of the first source that agrees with them."""
@@ -223,8 +231,8 @@ def _sharpen(
             if exact.size != printed.size:
                 continue
             # Tiny numbers are printed as zero.
-            nothing = _PRINTED**2 * float(np.abs(exact).max())
-            if np.allclose(printed, exact, rtol=_PRINTED, atol=nothing):
+            nothing = _PRINT_ERROR**2 * float(np.abs(exact).max())
+            if np.allclose(printed, exact, rtol=_PRINT_ERROR, atol=nothing):
                 if not np.array_equal(printed, exact):
                     element.set(attribute, numbers(exact))
                 break

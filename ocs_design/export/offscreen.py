@@ -91,9 +91,9 @@ def sheet_of_views(model: mujoco.MjModel, qpos: FloatArray) -> NDArray[np.uint8]
     rows = []
     for row in VIEWS:
         images = []
-        for each in row:
+        for shot in row:
             # On white, whatever the model's background, with a line around each geom.
-            renderer.update_scene(data, _camera(model, each, box))
+            renderer.update_scene(data, _camera(model, shot, box))
             image = renderer.render()
             renderer.enable_segmentation_rendering()
             geoms = renderer.render()[:, :, 0]
@@ -165,13 +165,13 @@ def frames(model: mujoco.MjModel, qpos: FloatArray) -> NDArray[np.uint8]:
     camera.azimuth, camera.elevation = AZIMUTH, ELEVATION
     # Radius of the sphere around the robot, about its base frame [m].
     robot = model.geom_bodyid > 0
-    far = np.linalg.norm(data.geom_xpos[robot] - data.site(IMU).xpos, axis=1)
-    reach = float(np.max(far + model.geom_rbound[robot]))
+    distances = np.linalg.norm(data.geom_xpos[robot] - data.site(IMU).xpos, axis=1)
+    reach = float(np.max(distances + model.geom_rbound[robot]))
     radius = SHADE_RADIUS * reach
     camera.distance = FRAME_ROOM * reach / np.sin(np.radians(FIELD_OF_VIEW / 2.0))
-    drawn = np.empty((len(qpos), FRAME_HEIGHT, FRAME_WIDTH, 3), dtype=np.uint8)
+    images = np.empty((len(qpos), FRAME_HEIGHT, FRAME_WIDTH, 3), dtype=np.uint8)
     with mujoco.Renderer(model, FRAME_HEIGHT, FRAME_WIDTH) as renderer:
-        for frame, pose in zip(drawn, qpos, strict=True):
+        for frame, pose in zip(images, qpos, strict=True):
             _pose(model, data, pose)
             over = data.site(IMU).xpos
             camera.lookat = over
@@ -187,7 +187,7 @@ def frames(model: mujoco.MjModel, qpos: FloatArray) -> NDArray[np.uint8]:
             )
             renderer.scene.ngeom += 1
             renderer.render(out=frame)
-    return drawn
+    return images
 
 
 def _pose(model: mujoco.MjModel, data: mujoco.MjData, qpos: FloatArray) -> None:

@@ -10,7 +10,7 @@ from ocs_design.common.errors import MissingToolError
 from ocs_design.device.device import Device
 from ocs_design.export.assembly.placed import placed_parts
 from ocs_design.export.device_parts import wheel_pieces
-from ocs_design.export.film import Take, add_white_sky, drawn
+from ocs_design.export.film import Take, add_white_sky, rendered
 from ocs_design.export.formats import Notes, Subject
 from ocs_design.export.meshes import Color, Mesh, part_mesh
 from ocs_design.export.robot_model import RobotModel, model_of
@@ -64,7 +64,7 @@ def render_views(takes: Mapping[str, Take]) -> dict[str, bytes]:
     Raises:
         MissingToolError: OpenGL does not work here; the message says why.
     """
-    pages = drawn(takes.values(), "views", Path.read_bytes, "pictures")
+    pages = rendered(takes.values(), "views", Path.read_bytes, "pictures")
     return dict(zip(takes, pages, strict=True))
 
 

@@ -42,7 +42,7 @@ def failure_of(arguments: Sequence[str], backend: str) -> str | None:
     if backend:
         environment["MUJOCO_GL"] = environment["PYOPENGL_PLATFORM"] = backend
     try:
-        done = subprocess.run(
+        process = subprocess.run(
             [sys.executable, "-m", PROGRAM, *arguments],
             env=environment,
             capture_output=True,
@@ -52,10 +52,10 @@ def failure_of(arguments: Sequence[str], backend: str) -> str | None:
         )
     except (OSError, subprocess.TimeoutExpired) as error:
         return f"{backend or 'OpenGL'}: {error}"
-    if done.returncode == 0:
+    if process.returncode == 0:
         return None
-    said = done.stderr.decode(errors="replace").strip().splitlines()
-    return f"{backend or 'OpenGL'}: {said[-1] if said else f'exit code {done.returncode}'}"
+    lines = process.stderr.decode(errors="replace").strip().splitlines()
+    return f"{backend or 'OpenGL'}: {lines[-1] if lines else f'exit code {process.returncode}'}"
 
 
 def draw(arguments: Sequence[str], what: str) -> None:
@@ -75,9 +75,9 @@ def draw(arguments: Sequence[str], what: str) -> None:
 
 def ffmpeg_program() -> str | None:
     """Path of the system's ffmpeg, else of imageio-ffmpeg's; None if there is neither."""
-    found = shutil.which("ffmpeg")
-    if found is not None or find_spec("imageio_ffmpeg") is None:
-        return found
+    path = shutil.which("ffmpeg")
+    if path is not None or find_spec("imageio_ffmpeg") is None:
+        return path
     # An optional dependency.
     import imageio_ffmpeg  # noqa: PLC0415
 

@@ -86,8 +86,8 @@ def robot_model(robot: Robot, device: Device) -> RobotModel:
         add_drives(spec, robot)
         # Every joint outside the legs is held in its posture, as in the flights.
         in_legs = leg_joints(robot)
-        for name, held in robot.tree.joints.items():
-            if name not in in_legs and held.mimic is None:
+        for name, held_joint in robot.tree.joints.items():
+            if name not in in_legs and held_joint.mimic is None:
                 spec.add_equality(
                     name=HOLD + name,
                     type=mujoco.mjtEq.mjEQ_JOINT,

@@ -37,8 +37,8 @@ def write(subject: Subject, folder: Path) -> Notes:
     robot, device, file = subject.carrier, subject.device, f"{subject.name}_ocs"
     package = package_name(subject.name)
     root = folder / package
-    for each in _FOLDERS:
-        (root / each).mkdir(parents=True)
+    for folder_name in _FOLDERS:
+        (root / folder_name).mkdir(parents=True)
     write_meshes(device, root)
     urdf = parse_xml(robot_urdf(robot, device))
     lost = _take_meshes(urdf, robot, root / "meshes", package)
@@ -93,8 +93,8 @@ def write(subject: Subject, folder: Path) -> Notes:
         (root / place).write_text(text, encoding="utf-8", newline="\n")
     notes = ["package.xml has no maintainer and no license yet: add yours"]
     if lost:
-        found = f"{len(lost)} meshes that were not found: {', '.join(lost)}"
-        notes.append(f"the ROS 2 package lacks {found}")
+        remark = f"{len(lost)} meshes that were not found: {', '.join(lost)}"
+        notes.append(f"the ROS 2 package lacks {remark}")
     return tuple(notes)
 
 
@@ -106,12 +106,12 @@ def package_name(robot: str) -> str:
 
 def _take_meshes(urdf: ET.Element, robot: Robot, folder: Path, package: str) -> list[str]:
     """Copy all meshes of a URDF and let it refer to the copies; returns those not found."""
-    found = [shape.mesh for body in robot.tree.bodies for shape in body.shapes if shape.mesh]
+    meshes = [shape.mesh for body in robot.tree.bodies for shape in body.shapes if shape.mesh]
     places = {path.name: path.name for path in folder.iterdir()}
     copies: dict[Path, str] = {}
     lost: dict[str, None] = {}
 
-    def alike(path: Path) -> int:
+    def common_parts(path: Path) -> int:
         """Number of path components, counted from the end, that match the mesh's address."""
         pairs = zip(reversed(path.parts), reversed(name.parts), strict=False)
         return next((k for k, (a, b) in enumerate(pairs) if a != b), len(name.parts))
@@ -123,8 +123,8 @@ def _take_meshes(urdf: ET.Element, robot: Robot, folder: Path, package: str) -> 
         place = places.get(name.name) if address == f"meshes/{name.name}" else None
         if place is None:
             # The file whose path matches the most components at the end of the address.
-            path = max(found, key=alike, default=None)
-            if path is None or not alike(path):
+            path = max(meshes, key=common_parts, default=None)
+            if path is None or not common_parts(path):
                 lost[address] = None
                 continue
             if path not in copies:

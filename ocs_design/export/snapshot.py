@@ -90,8 +90,8 @@ def picture(shapes: Sequence[tuple[FloatArray, Color]]) -> NDArray[np.uint8]:
     Shapes are triangle corners, x forward and z up [m], shape (n, 3, 3), with their colour.
     """
     opaque = [(corners, color[:3]) for corners, color in shapes if color[3] >= _GLASS]
-    corners = np.concatenate([np.empty((0, 3, 3)), *(each for each, _ in opaque)])
-    tints = (np.tile(color, (len(each), 1)) for each, color in opaque)
+    corners = np.concatenate([np.empty((0, 3, 3)), *(triangles for triangles, _ in opaque)])
+    tints = (np.tile(color, (len(triangles), 1)) for triangles, color in opaque)
     colors = np.concatenate([np.empty((0, 3)), *tints])
     right, up, towards = view_of(_TOWARDS, (0.0, 0.0, 1.0))
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
@@ -109,10 +109,10 @@ def picture(shapes: Sequence[tuple[FloatArray, Color]]) -> NDArray[np.uint8]:
         plane = (plane - (low + high) / 2.0) / size + np.array([width, height]) / 2.0
     shown = _nearest(np.concatenate([plane, (corners[seen] @ towards)[..., None]], axis=-1))
     lit = colors[seen] * (_AMBIENT + (1.0 - _AMBIENT) * shade)[:, None]
-    drawn = np.concatenate([lit, np.ones((1, 3))]).astype(np.float32)
+    palette = np.concatenate([lit, np.ones((1, 3))]).astype(np.float32)
     # Each pixel is the mean of its oversampled pixels.
     k = _OVERSAMPLING
-    total = sum(drawn[shown[row::k, column::k]] for row, column in product(range(k), repeat=2))
+    total = sum(palette[shown[row::k, column::k]] for row, column in product(range(k), repeat=2))
     return np.asarray(np.round(_BACKGROUND / k**2 * np.minimum(total, k**2)), dtype=np.uint8)
 
 

@@ -132,9 +132,9 @@ def _macro_wheels(device: Device) -> dict[str, str]:
 
 def _macro_carrier(device: Device) -> str:
     """Carrier, with the differences between modules selected by the macro's argument."""
-    found = [bodies.carrier_inertial(device, module) for module in device.modules]
-    each = [inertial_values(body) for body in found if body is not None]
-    if not each:
+    inertials = [bodies.carrier_inertial(device, module) for module in device.modules]
+    values_of_modules = [inertial_values(body) for body in inertials if body is not None]
+    if not values_of_modules:
         return ""
     # Xacro reads names that look like numbers as numbers.
     sides = [name if name.isdigit() else f"'{name}'" for name in device.layout.names]
@@ -148,8 +148,11 @@ def _macro_carrier(device: Device) -> str:
         )
         return "${" + "".join([*chain][:-1]) + f"'{values[-1]}'" + "}"
 
-    sided = {name: by_side([values[name] for values in each]) for name in each[0]}
-    looks = [visuals_urdf(plain_visuals(device, each)) for each in device.modules]
+    sided = {
+        name: by_side([values[name] for values in values_of_modules])
+        for name in values_of_modules[0]
+    }
+    looks = [visuals_urdf(plain_visuals(device, module)) for module in device.modules]
     if len({*looks}) == 1:
         visuals = looks[0]
     else:
@@ -177,7 +180,7 @@ def snippet_mjcf(device: Device, base: Base) -> str:
     imu, attitude, rate = (
         name.removeprefix(bodies.PREFIX) for name in (bodies.IMU, *bodies.IMU_SENSORS)
     )
-    made = list(bodies.device_bodies(device))
+    device_bodies = list(bodies.device_bodies(device))
     motors, sensors = [], []
     for module in device.modules:
         joint = bodies.joint_name(module).removeprefix(bodies.PREFIX)
@@ -191,11 +194,13 @@ def snippet_mjcf(device: Device, base: Base) -> str:
     values = {
         **_names(base),
         # Wheels first.
-        "bodies": ", ".join(each.name for each in sorted(made, key=lambda each: not each.joint)),
+        "bodies": ", ".join(
+            body.name for body in sorted(device_bodies, key=lambda body: not body.joint)
+        ),
         "joints": ", ".join(bodies.joint_names(device)),
         **dict(zip(("speed", "torque"), bodies.wheel_sensors(device.modules[0]), strict=True)),
         "base_quaternion": numbers(quaternion(rotation)),
-        "modules": "".join(_body_mjcf(device, body) for body in made),
+        "modules": "".join(_body_mjcf(device, body) for body in device_bodies),
         "motors": "".join(f"    {motor}\n" for motor in motors),
         "imu": imu,
         "sensors": "".join(f"    {sensor}\n" for sensor in sensors),

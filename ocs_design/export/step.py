@@ -102,27 +102,27 @@ def module_bytes(device: Device) -> bytes:
 def device_bytes(device: Device) -> bytes:
     """STEP of all modules, which share their pieces, and their supports, in the base frame B."""
     assembly = _Assembly()
-    module, whole = assembly.add_module(device), assembly.add_group("device")
-    for each in device.modules:
-        place = wheel_placement(each) @ carrier_placement(each)
-        assembly.put(module, whole, place, each.name)
+    group, device_group = assembly.add_module(device), assembly.add_group("device")
+    for module in device.modules:
+        place = wheel_placement(module) @ carrier_placement(module)
+        assembly.put(group, device_group, place, module.name)
     if device.plate is not None:
         plate = device.plate
         on_trunk = Placement(np.eye(3), np.array(plate.position))
         # The first body has all plates; here each is a separate piece.
         _, *others = plate_bodies(plate)
         bodies = [
-            (plate_part(each), Placement(np.eye(3), np.array(each.position)))
-            for each in plate.single_plates
+            (plate_part(single), Placement(np.eye(3), np.array(single.position)))
+            for single in plate.single_plates
         ]
         bodies += [(part, on_trunk @ at) for part, at in others]
         for part, place in bodies:
             label = assembly.add_part(part.name, part, ALUMINIUM)
-            assembly.put(label, whole, place, part.name)
+            assembly.put(label, device_group, place, part.name)
     for kind in pedestal_kinds(device):
         label = assembly.add_part(kind.name, kind.part, PRINT)
         for pedestal in kind.alike:
-            assembly.put(label, whole, pedestal.placement, f"pedestal {pedestal.module}")
+            assembly.put(label, device_group, pedestal.placement, f"pedestal {pedestal.module}")
     return assembly.written("device")
 
 
@@ -254,14 +254,16 @@ def part_brep(part: Part) -> TopoDS_Shape:
     joined = reduce(
         lambda left, right: BRepAlgoAPI_Fuse(left, right).Shape(), map(_shape, part.joined)
     )
-    whole = reduce(lambda left, hole: BRepAlgoAPI_Cut(left, _shape(hole)).Shape(), part.cut, joined)
-    cleaner = ShapeUpgrade_UnifySameDomain(whole, True, True, False)
+    difference = reduce(
+        lambda left, hole: BRepAlgoAPI_Cut(left, _shape(hole)).Shape(), part.cut, joined
+    )
+    cleaner = ShapeUpgrade_UnifySameDomain(difference, True, True, False)
     cleaner.Build()
     # Boolean operations return a compound even for one piece.
-    found = TopExp_Explorer(cleaner.Shape(), TopAbs_ShapeEnum.TopAbs_SOLID)
-    solid = found.Current()
-    found.Next()
-    return cleaner.Shape() if found.More() else solid
+    solids = TopExp_Explorer(cleaner.Shape(), TopAbs_ShapeEnum.TopAbs_SOLID)
+    solid = solids.Current()
+    solids.Next()
+    return cleaner.Shape() if solids.More() else solid
 
 
 def _shape(solid: Solid) -> TopoDS_Shape:
@@ -330,7 +332,7 @@ def _relief(relief: Relief) -> TopoDS_Shape:
     block = BRepPrimAPI_MakePrism(face, gp_Vec(0.0, 0.0, -deep)).Shape()
     corner = across[0][0] - 1.0, across[1][0] - 1.0, -2.0 * deep
     other = across[0][-1] + 1.0, across[1][-1] + 1.0, 0.0
-    below = BRepPrimAPI_MakeBox(*(gp_Pnt(*map(float, each)) for each in (corner, other))).Shape()
+    below = BRepPrimAPI_MakeBox(*(gp_Pnt(*map(float, point)) for point in (corner, other))).Shape()
     block = BRepAlgoAPI_Cut(block, below).Shape()
     for x, y, radius in relief.holes:
         drill = Prism(Disc(radius, (x, y)), -1e-3, (deep + 1.0) / MILLIMETRES)

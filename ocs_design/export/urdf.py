@@ -58,10 +58,12 @@ def robot_urdf(robot: Robot, device: Device) -> bytes:
     content = robot.content if robot.format is RobotFormat.URDF else tree_urdf(robot.tree).encode()
     root = parse_xml(content)
     base = () if robot.mount is None or robot.format is not RobotFormat.URDF else (BASE_FRAME,)
-    made = list(device_bodies(device))
-    links, joints = [body.name for body in made], [body.joint or body.name for body in made]
+    bodies = list(device_bodies(device))
+    links, joints = [body.name for body in bodies], [body.joint or body.name for body in bodies]
     for kind, names in (("link", links), ("joint", joints)):
-        require_free(kind, (each.get("name", "") for each in root.iter(kind)), (*names, *base))
+        require_free(
+            kind, (element.get("name", "") for element in root.iter(kind)), (*names, *base)
+        )
     heading = (
         f"  <!-- Orientation control system on {in_comment(robot.trunk)}, by ocs-design. -->\n"
     )
@@ -275,7 +277,8 @@ def control_joint(
 
 def _interface(kind: str, name: str, parameters: Mapping[str, float]) -> str:
     inside = "".join(
-        f'<param name="{each}">{numbers(value)}</param>' for each, value in parameters.items()
+        f'<param name="{parameter}">{numbers(value)}</param>'
+        for parameter, value in parameters.items()
     )
     tag = f"{kind}_interface"
     return f'<{tag} name="{name}">{inside}</{tag}>' if inside else f'<{tag} name="{name}"/>'
@@ -304,7 +307,7 @@ def tree_urdf(tree: Tree) -> str:
             inertial.append(_origin(Placement(np.eye(3), mass.com)))
             ET.SubElement(inertial, "mass", value=numbers(mass.mass))
             values = inertial_values(mass)
-            moments = {each: values[each] for each in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")}
+            moments = {key: values[key] for key in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")}
             ET.SubElement(inertial, "inertia", moments)
         for shape in body.shapes:
             for geometry, place in _geometries(shape):
@@ -349,8 +352,8 @@ def _joint(name: str, body: Body, joint: Joint, parent: str) -> ET.Element:
     ET.SubElement(element, "axis", xyz=numbers(joint.axis))
     if kind != "continuous":
         names = ("lower", "upper", "effort", "velocity")
-        bounds = np.clip([getattr(joint, each) for each in names], -UNLIMITED, UNLIMITED)
-        limits = {each: numbers(bound) for each, bound in zip(names, bounds, strict=True)}
+        bounds = np.clip([getattr(joint, key) for key in names], -UNLIMITED, UNLIMITED)
+        limits = {key: numbers(bound) for key, bound in zip(names, bounds, strict=True)}
         ET.SubElement(element, "limit", limits)
     dynamics = {"damping": numbers(joint.damping), "friction": numbers(joint.friction)}
     ET.SubElement(element, "dynamics", dynamics)

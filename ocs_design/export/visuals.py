@@ -81,16 +81,16 @@ class Visual:
 
 def still_meshes(device: Device) -> Mapping[Path, Mesh]:
     """Meshes of carrier, plate and pedestals used by visuals; none for a massless carrier."""
-    found: dict[str, Mesh] = {}
+    meshes: dict[str, Mesh] = {}
     if not device.wheels_alone:
-        found |= _carrier_meshes(foot_of(device), motor_mount(device).cage)
+        meshes |= _carrier_meshes(foot_of(device), motor_mount(device).cage)
     if device.plate is not None:
         bodies = plate_bodies(device.plate)
-        found["plate"] = merged([part_mesh(part, _SECTIONS).placed(at) for part, at in bodies])
+        meshes["plate"] = merged([part_mesh(part, _SECTIONS).placed(at) for part, at in bodies])
     if device.pedestals:
-        placed = [(pedestal_part(each), each.placement) for each in device.pedestals]
-        found["pedestal"] = merged([part_mesh(part, _SECTIONS).placed(at) for part, at in placed])
-    return {_MESHES[name]: mesh for name, mesh in found.items()}
+        placed = [(pedestal_part(pedestal), pedestal.placement) for pedestal in device.pedestals]
+        meshes["pedestal"] = merged([part_mesh(part, _SECTIONS).placed(at) for part, at in placed])
+    return {_MESHES[name]: mesh for name, mesh in meshes.items()}
 
 
 @lru_cache(maxsize=1)
@@ -129,7 +129,7 @@ def plain_visuals(device: Device, module: Module | None) -> tuple[Visual, ...]:
     """Boxes and cylinders for the fixed parts, for files without meshes; see `still_visuals`."""
     if module is None:
         plates = () if device.plate is None else _plain_plate(device.plate)
-        boxes = (box for each in device.pedestals for box in _plain_pedestal(each))
+        boxes = (box for pedestal in device.pedestals for box in _plain_pedestal(pedestal))
         return (*plates, *boxes)
     if device.wheels_alone:
         return ()
@@ -184,8 +184,8 @@ def _plain_pedestal(pedestal: Pedestal) -> Iterator[Visual]:
     base = _shifted(0.0, end, pedestal.base / 2.0)
     yield _box("pedestal", (half, end + pedestal.flange, pedestal.base / 2.0), place @ base)
     seat = Placement(pedestal.seat.rotation, np.array([0.0, 0.0, pedestal.base]))
-    own = seat @ _shifted(0.0, end, -thick)
-    yield _box("pedestal", (half, end, thick), place @ own)
+    middle = seat @ _shifted(0.0, end, -thick)
+    yield _box("pedestal", (half, end, thick), place @ middle)
     # From the far end of the seat to that of the base, at half the lean off the upright.
     tall, turn = 2.0 * end * sin(lean / 2.0), (pi - lean) / 2.0
     c, s = -cos(turn), sin(turn)

@@ -43,12 +43,12 @@ def watch_takes(takes: Sequence[Take], seconds: float) -> None:
         command = [sys.executable, "-m", "ocs_design.export.watching", str(seconds), *files]
         # The command line disables OpenGL for its own process.
         environment = {**os.environ, "MUJOCO_GL": "glfw"}
-        done = subprocess.run(
+        process = subprocess.run(
             command, cwd=folder, env=environment, capture_output=True, text=True, check=False
         )
-    if done.returncode != 0:
-        said = done.stderr.strip().splitlines()
-        why = said[-1].removeprefix("ERROR: ") if said else f"exit code {done.returncode}"
+    if process.returncode != 0:
+        lines = process.stderr.strip().splitlines()
+        why = lines[-1].removeprefix("ERROR: ") if lines else f"exit code {process.returncode}"
         raise MissingToolError(f"no window of MuJoCo's viewer: {why}", hint=DISPLAY_HINT)
 
 
@@ -77,9 +77,9 @@ def watch(model: mujoco.MjModel, qpos: FloatArray, seconds: float, parent: int) 
     with mujoco.viewer.launch_passive(model, data, **quiet) as viewer:
         viewer.cam.type = mujoco.mjtCamera.mjCAMERA_TRACKING
         viewer.cam.trackbodyid = 1
-        start, whole = time.monotonic(), len(qpos) * seconds + PAUSE
+        start, duration = time.monotonic(), len(qpos) * seconds + PAUSE
         while viewer.is_running() and os.getppid() == parent:
-            pose = int((time.monotonic() - start) % whole / seconds)
+            pose = int((time.monotonic() - start) % duration / seconds)
             with viewer.lock():
                 data.qpos[:] = qpos[min(pose, len(qpos) - 1)]
                 data.time = pose * seconds

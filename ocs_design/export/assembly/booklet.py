@@ -202,14 +202,14 @@ def _sections(assembly: Assembly) -> Iterator[tuple[list[Item], Scale, str, Box]
     numbers, box = assembly.numbers, _SECTION_BOX
     if assembly.bonding:
         box = (*box[:3], _BONDING_BOX[1] - 6.0)
-        what = "Ring and bell of the motor in their fixture, cut along their axis"
+        caption = "Ring and bell of the motor in their fixture, cut along their axis"
         yield (
             *section_view(assembly.bonding, numbers, _above_caption(_BONDING_BOX), standing=True),
-            what,
+            caption,
             _BONDING_BOX,
         )
-    drawn = section_view(assembly.pieces, numbers, _above_caption(box))
-    yield *drawn, "One module cut along its axis", box
+    view = section_view(assembly.pieces, numbers, _above_caption(box))
+    yield *view, "One module cut along its axis", box
 
 
 def _above_caption(box: Box) -> Box:
@@ -230,8 +230,8 @@ def _around(items: Iterable[Item]) -> Box:
 def _text_pages(assembly: Assembly, texts: Sequence[Chapter]) -> list[list[Item]]:
     """Text in columns: beside the section, then below the table of screws, then full pages."""
     items: list[Item] = []
-    for drawn, scale, what, box in _sections(assembly):
-        items += [*drawn, *_scale(what, scale, box)]
+    for view, scale, what, box in _sections(assembly):
+        items += [*view, *_scale(what, scale, box)]
     rows = [tuple(map(str, row)) for row in screw_rows(assembly)]
     header = ("No.", "Qty", "Screw", "What it holds", "Thread engaged", "Torque", "Set by")
     widths = (6.0, 8.0, 28.0, 0.0, 26.0, 18.0, 78.0)
@@ -239,9 +239,9 @@ def _text_pages(assembly: Assembly, texts: Sequence[Chapter]) -> list[list[Item]
     table, bottom = _table(header, rows, widths, across) if rows else ([], TOP + 15.0)
     pages = [items, table]
     columns = [(0, (_SECTION_BOX[2] + _GUTTER, TOP + 15.0, RIGHT - _INSET, BOTTOM - 3.0))]
-    columns += [(1, each) for each in _halves(bottom + 6.0)]
-    here = columns.pop(0)
-    y = here[1][1]
+    columns += [(1, column) for column in _halves(bottom + 6.0)]
+    current = columns.pop(0)
+    y = current[1][1]
     # Headings, and paragraphs with a number or dash before them.
     blocks: list[tuple[str, str]] = []
     for chapter in texts:
@@ -251,19 +251,19 @@ def _text_pages(assembly: Assembly, texts: Sequence[Chapter]) -> list[list[Item]
             for number, text in enumerate(chapter.texts, chapter.first)
         ]
     for (number, text), (_, following) in zip(blocks, [*blocks[1:], ("", "")], strict=True):
-        lines = _lines(number, text, here)
+        lines = _lines(number, text, current)
         need = _LEADING * len(lines)
         if not number:
             # A heading must not be the last line of a column.
-            need += _LEADING * len(_lines("–", following, here)) + 2.0 * _AFTER
-        if y + need - _LEADING > here[1][3]:
+            need += _LEADING * len(_lines("–", following, current)) + 2.0 * _AFTER
+        if y + need - _LEADING > current[1][3]:
             if not columns:
-                columns = [(len(pages), each) for each in _halves(TOP + 15.0)]
+                columns = [(len(pages), column) for column in _halves(TOP + 15.0)]
                 pages.append([])
-            here = columns.pop(0)
-            y = here[1][1]
-            lines = _lines(number, text, here)
-        page, (left, top, *_) = here
+            current = columns.pop(0)
+            y = current[1][1]
+            lines = _lines(number, text, current)
+        page, (left, top, *_) = current
         if number:
             pages[page].append(Lettering((left, y), number, _TEXT))
             left += _NUMBER
@@ -307,13 +307,16 @@ def _table(
     right edge [mm].
     """
     left, y, right = box
-    rest = right - left - sum(widths)
-    wide = [width or rest for width in widths]
+    remaining = right - left - sum(widths)
+    column_widths = [width or remaining for width in widths]
     items: list[Item] = []
     for number, row in enumerate((header, *rows)):
-        lines = [wrapped(cell, width - 1.5, _TEXT) for cell, width in zip(row, wide, strict=True)]
+        lines = [
+            wrapped(cell, width - 1.5, _TEXT)
+            for cell, width in zip(row, column_widths, strict=True)
+        ]
         x = left
-        for texts, width in zip(lines, wide, strict=True):
+        for texts, width in zip(lines, column_widths, strict=True):
             for place, text in enumerate(texts):
                 items.append(Lettering((x, y + 3.0 + place * 3.1), text, _TEXT))
             x += width
@@ -334,7 +337,7 @@ def _made(device: Device, name: str, bill: Sequence[BillRow]) -> tuple[str, str]
     of_housing = name in ("drum", "lid", "foot", "cage")
     if of_housing or name.startswith(("pedestal", "ring_fixture")):
         return "printed, PETG", f"{'housing_' if of_housing else ''}{name}.stl"
-    row = next(each for each in bill if each.piece == name)
+    row = next(entry for entry in bill if entry.piece == name)
     if name == "guard":
         return f"{row.material}, {row.stock}", "guard_ring.stl"
     cut = {"plate": "plate.pdf", "mast": "plate.pdf", "sleeves": "", BLOCK: "block.stl"}
@@ -347,8 +350,8 @@ def _made(device: Device, name: str, bill: Sequence[BillRow]) -> tuple[str, str]
 def piece_rows(assembly: Assembly) -> Iterator[PieceRow]:
     """Pieces and screws in the order of their numbers."""
     bill = bill_rows(assembly.device)
-    drawn = {piece.key: piece for piece in (*assembly.pieces, *assembly.bonding)}
-    for key, piece in drawn.items():
+    pieces = {piece.key: piece for piece in (*assembly.pieces, *assembly.bonding)}
+    for key, piece in pieces.items():
         number, count = assembly.numbers[key], _count(assembly, piece)
         if isinstance(key, Fastening):
             what = key.designation
@@ -357,26 +360,28 @@ def piece_rows(assembly: Assembly) -> Iterator[PieceRow]:
             yield PieceRow(number, count, f"screw, {key.name}", f"bought: {what}", "")
         else:
             label = _LABELS.get(key, key.replace("_", " "))
-            made, file = _made(assembly.device, key, bill)
-            yield PieceRow(number, count, label, made, file)
+            method, file = _made(assembly.device, key, bill)
+            yield PieceRow(number, count, label, method, file)
 
 
 def screw_rows(assembly: Assembly) -> Iterator[ScrewRow]:
     """Screws with their torques."""
     for piece in assembly.pieces:
-        held = piece.fastening
-        if held is None:
+        fastening = piece.fastening
+        if fastening is None:
             continue
-        found = assembly.screws[held]
-        depth = f"{1e3 * found.engagement:.1f} mm ({found.engagement / held.screw.diameter:.1f} d)"
+        tightened_screws = assembly.screws[fastening]
+        engagement = tightened_screws.engagement
+        diameters = engagement / fastening.screw.diameter
+        depth = f"{1e3 * engagement:.1f} mm ({diameters:.1f} d)"
         yield ScrewRow(
-            assembly.numbers[held],
+            assembly.numbers[fastening],
             _count(assembly, piece),
-            held.designation,
-            f"{held.purpose}{found.with_washers}",
+            fastening.designation,
+            f"{fastening.purpose}{tightened_screws.with_washers}",
             depth,
-            f"{significant(found.torque, 2)} N m",
-            found.rule,
+            f"{significant(tightened_screws.torque, 2)} N m",
+            tightened_screws.rule,
         )
 
 
@@ -388,35 +393,40 @@ def _count(assembly: Assembly, piece: Piece) -> int:
 
 def _motor_threads(assembly: Assembly) -> Iterator[str]:
     """Known depth of the motor's threads, and the reach of the screws into them."""
-    found = [each for held, each in assembly.screws.items() if held.joint.in_motor]
-    if not found:
+    tightened_screws = [
+        screws for fastening, screws in assembly.screws.items() if fastening.joint.in_motor
+    ]
+    if not tightened_screws:
         return
     reach = " and ".join(
-        f"{1e3 * each.engagement:.1f} mm ({each.fastening.name})" for each in found
+        f"{1e3 * screws.engagement:.1f} mm ({screws.fastening.name})" for screws in tightened_screws
     )
-    motor, drawn = assembly.device.motor, ""
+    motor, model_text = assembly.device.motor, ""
     model = drawn_threads(motor.name, motor.source)
-    specified = all(each.fastening.least > 0.0 for each in found)
+    specified = all(screws.fastening.least > 0.0 for screws in tightened_screws)
     if model is not None and not specified:
-        joints = (each.fastening.joint for each in found)
-        at = [model.rotor if joint is BoltedJoint.WHEEL else model.stator for joint in joints]
-        drawn = (
+        joints = (screws.fastening.joint for screws in tightened_screws)
+        depths = [model.rotor if joint is BoltedJoint.WHEEL else model.stator for joint in joints]
+        model_text = (
             f" For {model.model}, whose threads the catalogue assumes for this motor, a CAD model "
-            f"shows {' and '.join(f'{1e3 * depth:.1f} mm' for depth in at)}: its modeller's "
+            f"shows {' and '.join(f'{1e3 * depth:.1f} mm' for depth in depths)}: its modeller's "
             "figures, not the maker's."
         )
-        reached = (each.engagement for each in found)
+        engagements = (screws.engagement for screws in tightened_screws)
         fits = all(
-            deep <= depth - OFF_BOTTOM + 1e-9 for deep, depth in zip(reached, at, strict=True)
+            engagement <= depth - OFF_BOTTOM + 1e-9
+            for engagement, depth in zip(engagements, depths, strict=True)
         )
         # Designs of older versions did not count them.
-        drawn += " The screws fit it." if fits else " If it is right, these screws are too long."
+        model_text += (
+            " The screws fit it." if fits else " If it is right, these screws are too long."
+        )
     known = "its maker's figures are in the table of screws" if specified else "no maker states it"
     yield (
         "Measure the depth of the motor's threads before you put screws into them: "
-        f"{known}. The screws of this design reach {reach} into it.{drawn} A screw that is too "
-        "long cuts into the winding; use a shorter one, or washers, so that its tip stays 0.5 mm "
-        "off the bottom, and reduce its torque in proportion to the thread lost."
+        f"{known}. The screws of this design reach {reach} into it.{model_text} A screw that is "
+        "too long cuts into the winding; use a shorter one, or washers, so that its tip stays "
+        "0.5 mm off the bottom, and reduce its torque in proportion to the thread lost."
     )
 
 
@@ -435,15 +445,20 @@ def chapters(assembly: Assembly) -> tuple[Chapter, ...]:
     ]
     before += _motor_threads(assembly)
     before.append(f"Tools: {', '.join(tools(assembly))}.")
-    each, once = tuple(module_steps(assembly)), tuple(robot_steps(assembly))
-    whole = (
+    steps_per_module, steps_on_robot = tuple(module_steps(assembly)), tuple(robot_steps(assembly))
+    all_chapters = (
         Chapter("Before you start", tuple(before)),
-        Chapter("Steps, for each module", each, numbered=True),
-        Chapter("Steps, once for the robot", once, numbered=True, first=len(each) + 1),
+        Chapter("Steps, for each module", steps_per_module, numbered=True),
+        Chapter(
+            "Steps, once for the robot",
+            steps_on_robot,
+            numbered=True,
+            first=len(steps_per_module) + 1,
+        ),
         Chapter("Balance", tuple(balance(assembly))),
         Chapter("Spin test, before anything goes on the robot", tuple(spin_test(assembly)), True),
         Chapter("Sweep, on the robot before its first flight", tuple(sweep(assembly)), True),
         Chapter("Wiring", tuple(wiring(assembly.device, assembly.margins))),
         Chapter("Safety", tuple(safety(assembly))),
     )
-    return tuple(chapter for chapter in whole if chapter.texts)
+    return tuple(chapter for chapter in all_chapters if chapter.texts)

@@ -75,10 +75,10 @@ def tightened(
     sheared = pi * screw.diameter * engagement / 2.0
     if joint is BoltedJoint.WHEEL:
         strength = fastening.strength
-        held = min(1.0, engagement / (CLASSES[strength].depth * screw.diameter))
-        share = held * joint_preload(screw, strength) / (sheared * ALUMINIUM_SHEAR)
+        filled = min(1.0, engagement / (CLASSES[strength].depth * screw.diameter))
+        share = filled * joint_preload(screw, strength) / (sheared * ALUMINIUM_SHEAR)
         rule = f"the joint, as computed; {share:.0%} of the load that strips a thread in 6061-T6"
-        return Tightened(fastening, held * tightening_torque(screw, strength), rule, engagement)
+        return Tightened(fastening, filled * tightening_torque(screw, strength), rule, engagement)
     limits = [(screw.preload, "class 8.8 at 90 % of yield (VDI 2230, friction 0.12)")]
     if joint.on_print:
         pressed = PRESSURE_SHARE * PETG.strength * screw.head_area
@@ -120,20 +120,20 @@ class Assembly(Documented):
     @cached_property
     def screws(self) -> dict[Fastening, Tightened]:
         """Screws with their torques, in the order of the pieces."""
-        plate, found = self.device.plate, {}
-        for held in (piece.fastening for piece in self.pieces):
-            if held is not None:
-                tapped = plate is not None and held.joint is BoltedJoint.FOOT_ON_PLATE
-                found[held] = tightened(
-                    held,
-                    on_slot=foot_hold(self.device) if held.joint.of_foot else None,
+        plate, by_fastening = self.device.plate, {}
+        for fastening in (piece.fastening for piece in self.pieces):
+            if fastening is not None:
+                tapped = plate is not None and fastening.joint is BoltedJoint.FOOT_ON_PLATE
+                by_fastening[fastening] = tightened(
+                    fastening,
+                    on_slot=foot_hold(self.device) if fastening.joint.of_foot else None,
                     deepest=plate.thickness if plate is not None and tapped else math.inf,
                 )
-        return found
+        return by_fastening
 
     def screws_of(self, *joints: BoltedJoint) -> list[Tightened]:
         """Screws of these joints, in the order of the pieces."""
-        return [each for held, each in self.screws.items() if held.joint in joints]
+        return [screws for fastening, screws in self.screws.items() if fastening.joint in joints]
 
     @cached_property
     def top_speed(self) -> float | None:
@@ -151,30 +151,36 @@ class Assembly(Documented):
         number = self.numbers.get(key)
         return "" if number is None else f" ({number})"
 
-    def screwed(self, held: Fastening) -> str:
+    def screwed(self, fastening: Fastening) -> str:
         """Step that tightens a set of equal screws."""
-        found, lock = self.screws[held], "no threadlocker"
-        if not held.joint.in_print:
+        tightened_screws, lock = self.screws[fastening], "no threadlocker"
+        if not fastening.joint.in_print:
             lock = "medium-strength threadlocker"
-            if held.joint.on_print:
+            if fastening.joint.on_print:
                 lock += ", a drop on the tips only, because it attacks the print"
-            if held.joint is BoltedJoint.WHEEL and balance_of(self.device).shifted:
+            if fastening.joint is BoltedJoint.WHEEL and balance_of(self.device).shifted:
                 lock += " when the wheel runs true (next step)"
-        cut = "" if held.shortened is None else f" shortened to {1e3 * held.shortened:.3g} mm"
+        cut = (
+            ""
+            if fastening.shortened is None
+            else f" shortened to {1e3 * fastening.shortened:.3g} mm"
+        )
         plate, where = self.device.plate, ""
         # Places of these screws on the trunk [mm] if their lengths differ.
-        if plate is not None and held.several_lengths:
-            own = zip(places(trunk_holes(plate)), plate.screw_lengths, strict=True)
-            where = f"; those at {', '.join(at for at, length in own if length == held.length)}"
+        if plate is not None and fastening.several_lengths:
+            holes = zip(places(trunk_holes(plate)), plate.screw_lengths, strict=True)
+            listed = ", ".join(place for place, length in holes if length == fastening.length)
+            where = f"; those at {listed}"
         return (
-            f"{held.name.capitalize()}: {held.count} x {held.designation}{cut}"
-            f"{self.number(held)}{found.with_washers}, "
-            f"{significant(found.torque, 2)} N m, crosswise in two rounds; {lock}{where}."
+            f"{fastening.name.capitalize()}: {fastening.count} x {fastening.designation}{cut}"
+            f"{self.number(fastening)}{tightened_screws.with_washers}, "
+            f"{significant(tightened_screws.torque, 2)} N m, crosswise in two rounds; "
+            f"{lock}{where}."
         )
 
 
 @lru_cache(maxsize=1)
 def assembly_of(subject: Subject) -> Assembly:
     """Assembly of the subject's device, for the booklet and for the report."""
-    own = {each.name: getattr(subject, each.name) for each in fields(Assembly)}
-    return Assembly(**own)
+    values = {field.name: getattr(subject, field.name) for field in fields(Assembly)}
+    return Assembly(**values)

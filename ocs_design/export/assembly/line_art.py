@@ -88,9 +88,9 @@ def _visible_parts(mesh: Mesh, depth: _DepthMap) -> list[FloatArray]:
     one, other = normals[faces[pairs]], normals[faces[pairs + 1]]
     front = (one[:, 2] > 0.0).astype(int) + (other[:, 2] > 0.0)
     crease = np.einsum("ij,ij->i", one, other) < _CREASE
-    drawn = (front == 1) | (crease & (front == 2))
+    is_drawn = (front == 1) | (crease & (front == 2))
     # Creases and outlines with a face towards the eye, by their ends, shape (n, 2, 3).
-    edges = np.asarray(mesh.vertices[ends[pairs[drawn]]])
+    edges = np.asarray(mesh.vertices[ends[pairs[is_drawn]]])
     if not len(edges):
         return []
     lengths = np.linalg.norm(edges[:, 1, :2] - edges[:, 0, :2], axis=1)
@@ -98,18 +98,18 @@ def _visible_parts(mesh: Mesh, depth: _DepthMap) -> list[FloatArray]:
     owner = np.repeat(np.arange(len(edges)), counts)
     share = (ranges(np.zeros(len(edges), dtype=int), counts) + 0.5) / counts[owner]
     start, along = edges[owner, 0], edges[owner, 1] - edges[owner, 0]
-    seen = depth.sees(start + share[:, None] * along)
-    found, position = [], 0
+    is_visible = depth.sees(start + share[:, None] * along)
+    parts, position = [], 0
     for edge, count in zip(edges[:, :, :2], counts, strict=True):
-        flags = np.concatenate([[False], seen[position : position + count], [False]])
+        flags = np.concatenate([[False], is_visible[position : position + count], [False]])
         position += count
         turns = np.flatnonzero(flags[1:] != flags[:-1])
         for begin, end in zip(turns[::2], turns[1::2], strict=True):
             # Single visible points are noise of the depth map.
             if end - begin > 1 or count <= 2:
                 shares = np.array([begin, end])[:, None] / count
-                found.append(edge[0] + shares * (edge[1] - edge[0]))
-    return found
+                parts.append(edge[0] + shares * (edge[1] - edge[0]))
+    return parts
 
 
 def _chains(segments: Iterable[FloatArray]) -> tuple[FloatArray, ...]:
@@ -120,21 +120,21 @@ def _chains(segments: Iterable[FloatArray]) -> tuple[FloatArray, ...]:
     for number, (start, end) in enumerate(keys):
         by_end.setdefault(start, []).append(number)
         by_end.setdefault(end, []).append(number)
-    left, chains = set(range(len(pieces))), []
+    remaining, chains = set(range(len(pieces))), []
     for number in range(len(pieces)):
-        if number not in left:
+        if number not in remaining:
             continue
-        left.discard(number)
+        remaining.discard(number)
         chain = list(pieces[number])
         # Extend it at its end, then, reversed, at its start.
         for end in reversed(keys[number]):
             last = end
-            while found := [each for each in by_end[last] if each in left]:
-                following = found[0]
-                left.discard(following)
-                far = int(keys[following][0] == last)
-                chain.append(pieces[following][far])
-                last = keys[following][far]
+            while candidates := [neighbour for neighbour in by_end[last] if neighbour in remaining]:
+                following = candidates[0]
+                remaining.discard(following)
+                far_end = int(keys[following][0] == last)
+                chain.append(pieces[following][far_end])
+                last = keys[following][far_end]
             chain.reverse()
         chains.append(np.array(chain))
     return tuple(chains)

@@ -78,34 +78,36 @@ def placed_parts(device: Device) -> Mapping[str, tuple[Part[float], Placement]]:
     Motor and gear are cylinders with their mass, the motor with its shaft; a gear of two wheels is
     two cylinders, named after each wheel.
     """
-    found = {
+    parts = {
         name.removeprefix("flywheel_"): (part, ORIGIN)
         for name, part in wheel_pieces(device.flywheel).items()
     }
     if device.wheels_alone:
-        return found
+        return parts
     foot, cage = foot_of(device), motor_mount(device).cage
     if device.guard_wall:
-        found["guard"] = guard_ring(foot.housing), ORIGIN
+        parts["guard"] = guard_ring(foot.housing), ORIGIN
     places = {"foot": foot.placement}
     if cage is not None:
         places["cage"] = cage_placement(foot, cage)
     for part in printed_parts(device):
-        found[part.name] = (part, places.get(part.name, ORIGIN))
+        parts[part.name] = (part, places.get(part.name, ORIGIN))
     motor = device.motor
     masses = {"motor": motor.mass, "gear": motor.gear_mass}
-    drawn = [
+    drive_parts = [
         (solid, _drive_bodies(device, solid))
         for solid in drive_solids(device)
         if solid.name in masses
     ]
-    for solid, bodies in drawn:
-        alike = (each for other, each in drawn if other.name == solid.name)
-        volume = sum(body.volume() for each in alike for body in each)
-        name = solid.name if solid.name not in found else f"{solid.name}_2"
+    for solid, bodies in drive_parts:
+        same_name = (
+            solid_bodies for other, solid_bodies in drive_parts if other.name == solid.name
+        )
+        volume = sum(body.volume() for solid_bodies in same_name for body in solid_bodies)
+        name = solid.name if solid.name not in parts else f"{solid.name}_2"
         part = Part(name, masses[solid.name] / volume, bodies)
-        found[name] = (part, Placement(np.eye(3), np.array([0.0, -solid.up, 0.0])))
-    return found
+        parts[name] = (part, Placement(np.eye(3), np.array([0.0, -solid.up, 0.0])))
+    return parts
 
 
 def _drive_bodies(device: Device, solid: DriveSolid) -> tuple[Revolution, ...]:
@@ -143,21 +145,21 @@ def module_pieces(device: Device) -> tuple[Piece, ...]:
     floor = -foot.housing.half_height
     screws = [
         (
-            each,
+            ring,
             _ring(
-                each.fastening,
-                each.circle.radius,
+                ring.fastening,
+                ring.circle.radius,
                 -pi / 2.0,
-                each.along if each.by_wheel else floor + each.along,
-                each.towards,
+                ring.along if ring.by_wheel else floor + ring.along,
+                ring.towards,
             ),
         )
-        for each in mount.screwed
+        for ring in mount.screwed
     ]
-    ahead = [(each.fastening.joint, piece) for each, piece in screws if each.towards < 0.0]
+    ahead = [(ring.fastening.joint, piece) for ring, piece in screws if ring.towards < 0.0]
     on_wheel = [piece for joint, piece in ahead if joint is BoltedJoint.WHEEL]
     inside = [piece for joint, piece in ahead if joint is not BoltedJoint.WHEEL]
-    behind = [piece for each, piece in screws if each.towards > 0.0]
+    behind = [piece for ring, piece in screws if ring.towards > 0.0]
     back, guard = ([parts.pop(name)] if name in parts else [] for name in ("cage", "guard"))
     # A motor with a ring on its bell sits in the drum.
     within = [parts.pop("motor")] if mount.bell is not None else []
@@ -225,8 +227,8 @@ def _foot_screws(device: Device) -> Iterator[Piece]:
     foot = foot_of(device)
     feet = [foot_screws(device, module) for module in device.modules]
     holes = foot_holes(device)
-    for held in dict.fromkeys(feet):
-        module = device.modules[feet.index(held)]
+    for fastening in dict.fromkeys(feet):
+        module = device.modules[feet.index(fastening)]
         if module.name in holes:
             # The holes are fixed, and the foot is turned over them.
             places = list(holes[module.name])
@@ -237,28 +239,37 @@ def _foot_screws(device: Device) -> Iterator[Piece]:
             off = foot.slot_radius * sin(pi / 4.0)
             places, place = [(off, off), (-off, -off)], foot.placement
             under = 0.0
-        heads = [_screw(held).moved(np.array([x, y, under + held.thickness])) for x, y in places]
+        heads = [
+            _screw(fastening).moved(np.array([x, y, under + fastening.thickness]))
+            for x, y in places
+        ]
         screws = merged(heads).placed(place)
         apart = -_APART * foot.housing.radius
-        yield Piece(held, screws, drop=apart, modules=feet.count(held))
+        yield Piece(fastening, screws, drop=apart, modules=feet.count(fastening))
 
 
 def _pieces_below(device: Device) -> Iterator[Piece]:
     """Plate, mast and sleeves, or a pedestal of each kind, and their screws."""
     foot, plate = foot_of(device), device.plate
-    apart, beside = _APART * foot.housing.radius, np.inf
+    apart, free_from = _APART * foot.housing.radius, np.inf
     if plate is not None:
         on_trunk = Placement(np.eye(3), np.array(plate.position))
         place = wheel_placement(device.modules[0]).inverse() @ on_trunk
         lowest = 1.5 * apart + max(plate.screw_lengths)
         head = Placement(np.eye(3), np.array([0.0, 0.0, plate.clamped]))
-        for held in plate.fastenings:
-            own = zip(plate.screw_places, plate.screw_lengths, strict=True)
-            heads = [_screw(held).placed(at @ head) for at, length in own if length == held.length]
-            yield Piece(held, merged(heads).placed(place), drop=apart, shared=True)
+        for fastening in plate.fastenings:
+            holes = zip(plate.screw_places, plate.screw_lengths, strict=True)
+            heads = [
+                _screw(fastening).placed(placement_in_plate @ head)
+                for placement_in_plate, length in holes
+                if length == fastening.length
+            ]
+            yield Piece(fastening, merged(heads).placed(place), drop=apart, shared=True)
         bodies: dict[str, list[Mesh]] = {}
-        for part, at in plate_bodies(plate):
-            bodies.setdefault(part.name, []).append(part_mesh(part, SECTIONS).placed(place @ at))
+        for part, placement_in_plate in plate_bodies(plate):
+            bodies.setdefault(part.name, []).append(
+                part_mesh(part, SECTIONS).placed(place @ placement_in_plate)
+            )
         sleeves = bodies.pop("sleeve", [])
         if sleeves:
             down = lowest + apart
@@ -267,21 +278,21 @@ def _pieces_below(device: Device) -> Iterator[Piece]:
             count = len(plate.rows) if name == "plate" else 1
             yield Piece(name, merged(meshes), drop=lowest, shared=True, count=count)
     for kind in pedestal_kinds(device):
-        one, held = kind.alike[0], kind.screws
+        one, fastening = kind.alike[0], kind.screws
         place = foot.placement @ one.seat.inverse()
-        flange = merged([_screw(held).moved(np.array([x, y, one.base])) for x, y in one.holes])
-        screws, mesh = (each.placed(place) for each in (flange, part_mesh(kind.part, SECTIONS)))
+        flange = merged([_screw(fastening).moved(np.array([x, y, one.base])) for x, y in one.holes])
+        screws, mesh = (mesh.placed(place) for mesh in (flange, part_mesh(kind.part, SECTIONS)))
         along = np.concatenate([screws.vertices[:, 2], mesh.vertices[:, 2]])
-        aside = min(0.0, beside - apart - float(along.max()))
-        beside = aside + float(along.min())
-        drawn = partial(Piece, aside=aside, modules=len(kind.alike))
-        yield drawn(held, screws, drop=apart)
-        yield drawn(kind.name, mesh, drop=2.0 * apart)
+        aside = min(0.0, free_from - apart - float(along.max()))
+        free_from = aside + float(along.min())
+        make_piece = partial(Piece, aside=aside, modules=len(kind.alike))
+        yield make_piece(fastening, screws, drop=apart)
+        yield make_piece(kind.name, mesh, drop=2.0 * apart)
 
 
-def _screw(held: Fastening) -> Mesh:
+def _screw(fastening: Fastening) -> Mesh:
     """A screw with its head above z = 0 and its tip below."""
-    screw, length = held.screw, held.length
+    screw, length = fastening.screw, fastening.length
     thread, head, top = screw.diameter / 2.0, screw.head_diameter / 2.0, screw.head_height
     profile = [(0.0, -length), (thread, -length), (thread, 0.0), (head, 0.0), (head, top)]
     return solid_mesh(revolved([*profile, (0.0, top)]), 24)

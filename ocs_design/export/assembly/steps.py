@@ -75,8 +75,8 @@ def tools(assembly: Assembly) -> Iterator[str]:
     """Tools that this design needs, without lathe, mill and printer."""
     device, screws = assembly.device, assembly.screws.values()
     if screws:
-        least = min(each.torque for each in screws)
-        *others, last = sorted({f"{1e3 * each.fastening.screw.key:g}" for each in screws})
+        least = min(screw_set.torque for screw_set in screws)
+        *others, last = sorted({f"{1e3 * screw_set.fastening.screw.key:g}" for screw_set in screws})
         keys = f"{', '.join(others)} and {last}" if others else last
         yield f"torque screwdriver from {significant(least, 1)} N m"
         yield f"hex keys of {keys} mm"
@@ -84,8 +84,8 @@ def tools(assembly: Assembly) -> Iterator[str]:
     web = device.flywheel.web
     if web is not None and web.hub.bore_radius > 0.0:
         bore = 2.0 * web.hub.bore_radius
-        of = f"reamer of {1e3 * bore:g} mm" if bore <= LARGEST_REAMER else "bore gauge for"
-        yield f"{of} H7 for the hub"
+        bore_tool = f"reamer of {1e3 * bore:g} mm" if bore <= LARGEST_REAMER else "bore gauge for"
+        yield f"{bore_tool} H7 for the hub"
     if device.flywheel.shape.shrunk_on:
         yield "oven to shrink the rim on its web"
     hole, cuts = balance_of(device).correction.hole_radius, device.flywheel.cuts
@@ -95,17 +95,17 @@ def tools(assembly: Assembly) -> Iterator[str]:
         small = f"drills of {2e3 * hole:.2g} mm, with spares,"
         yield f"{small if hole >= LEAST_DRILL / 2.0 else 'small grinder'} to balance"
     cut = ["the motor's shaft"] if shaft_cut(device)[1] > 0.0 else []
-    for held, found in assembly.screws.items():
-        room = room_above(device, found) if held.joint.of_foot else None
+    for fastening, tightened_screws in assembly.screws.items():
+        room = room_above(device, tightened_screws) if fastening.joint.of_foot else None
         if room is not None and LEAST_ROOM <= room <= KEY_LEG:
-            cut.append(f"the short leg of a hex key of {1e3 * held.screw.key:g} mm")
-        if held.shortened is not None:
+            cut.append(f"the short leg of a hex key of {1e3 * fastening.screw.key:g} mm")
+        if fastening.shortened is not None:
             cut.append("screws")
     if cut:
         yield f"cutting disc for {' and '.join(dict.fromkeys(cut))}"
     if "lid" in assembly.numbers:
         strips = [HAND_STRIP, *filter(None, [_height_strip(assembly)])]
-        yield f"strips of {' and '.join(f'{1e3 * each:.1f}' for each in strips)} mm for gaps"
+        yield f"strips of {' and '.join(f'{1e3 * height:.1f}' for height in strips)} mm for gaps"
     yield from ("steel rule", "dial gauge", "hand drill on a stand", "scales to 0.01 g")
     if assembly.top_speed is not None:
         yield from ("tachometer", "accelerometer that shows its amplitude, and wax, to balance")
@@ -208,13 +208,15 @@ def _drive_steps(assembly: Assembly) -> Iterator[str]:
     # Joint of the wheel on its drive; a ring around a bell is already bonded.
     joint = None
     if "drum" in assembly.numbers and not device.on_bell:
-        joint = next((each for each in joints_of(device) if each.name == SHAFT_JOINT), None)
+        joint = next(
+            (candidate for candidate in joints_of(device) if candidate.name == SHAFT_JOINT), None
+        )
     text = {BoltedJoint.MOTOR_IN_CAGE: " Its wires come out between two posts, tied to one."}
     if joint is not None and joint.capacity is not None:
         text[BoltedJoint.WHEEL] = f" They carry the wheel by {joint.note}."
-    for each in assembly.screws_of(*of_motor, BoltedJoint.CAGE, BoltedJoint.WHEEL):
-        held = each.fastening
-        yield f"{assembly.screwed(held)}{text.get(held.joint, '')}"
+    for tightened_screws in assembly.screws_of(*of_motor, BoltedJoint.CAGE, BoltedJoint.WHEEL):
+        fastening = tightened_screws.fastening
+        yield f"{assembly.screwed(fastening)}{text.get(fastening.joint, '')}"
     if joint is not None and joint.capacity is None:
         yield f"Mount the wheel on its drive by a joint of your own: {joint.note}."
     elif joint is not None and (strip := _height_strip(assembly)) is not None:
@@ -327,7 +329,7 @@ def _trunk_steps(assembly: Assembly) -> Iterator[str]:
         f"{part_name('foot', module)} {' and '.join(places(ends))}"
         for module, ends in standing.items()
     ]
-    holes = {each.module: each.in_base(each.holes) for each in device.pedestals}
+    holes = {pedestal.module: pedestal.in_base(pedestal.holes) for pedestal in device.pedestals}
     drilled += [
         f"{part_name('pedestal', module)} {', '.join(places(ends))}"
         for module, ends in holes.items()
@@ -337,7 +339,7 @@ def _trunk_steps(assembly: Assembly) -> Iterator[str]:
         for module in device.modules
         if module.name not in holes
     ]
-    heights += [each.position[2] for each in device.pedestals]
+    heights += [pedestal.position[2] for pedestal in device.pedestals]
     stand = " and ".join(dict.fromkeys(f"{1e3 * height:.1f}" for height in heights))
     if device.layout == PAIR:
         yield (
@@ -384,17 +386,17 @@ def _plate_steps(assembly: Assembly, plate: CarrierPlate, holes: str) -> Iterato
             f"{cut}'s back {plate.thread} by cad/drilling.pdf, printed at 100 %. Whether "
             "its wall can carry them is not checked: put a plate behind it where it is thin."
         )
-        mast, (arms, its, each) = plate.mast, ("an arm", "its top", "it")
+        mast, (arms, tops_text, per_arm) = plate.mast, ("an arm", "its top", "it")
         if len(plate.heights) > 1:
-            arms, its, each = f"{len(plate.heights)} arms", "their tops", "each"
+            arms, tops_text, per_arm = f"{len(plate.heights)} arms", "their tops", "each"
         below = [f"{1e3 * (mast.high - z):.1f}" for z in plate.heights]
         tops = " and ".join("level with" if low == "0.0" else f"{low} mm below" for low in below)
         yield (
             f"Weld the mast{assembly.number('mast')} to cad/plate.pdf, of square tube "
             f"{1e3 * mast.side:.0f} x {1e3 * mast.wall:.0f} mm: an upright of "
             f"{1e3 * (mast.high - mast.low):.1f} mm, {arms} of "
-            f"{1e3 * (mast.back + plate.neck):.1f} mm with {its} {tops} the upright's, and a "
-            f"plate on {each}. "
+            f"{1e3 * (mast.back + plate.neck):.1f} mm with {tops_text} {tops} the upright's, and a "
+            f"plate on {per_arm}. "
             f"Drill it {1e3 * plate.screw.clearance_hole:.1f} mm through both walls, with "
             f"a sleeve of {1e3 * mast.bore:.1f} mm between them around each screw."
         )
@@ -412,8 +414,8 @@ def _plate_steps(assembly: Assembly, plate: CarrierPlate, holes: str) -> Iterato
                 f"of {bush} mm in its holes it is the jig for the trunk's, which run along the "
                 f"screws, up to {tilt} off square to the trunk. Bed it in filled epoxy."
             )
-    own = zip(places(trunk_holes(plate)), plate.sleeves, strict=True)
-    sleeves = [f"{1e3 * length:.2f} mm at {at}" for at, length in own if length > 0.0]
+    holes_of_trunk = zip(places(trunk_holes(plate)), plate.sleeves, strict=True)
+    sleeves = [f"{1e3 * length:.2f} mm at {at}" for at, length in holes_of_trunk if length > 0.0]
     if sleeves:
         shims = ""
         if any(0.0 < length < SHIM for length in plate.sleeves):
@@ -428,11 +430,11 @@ def _plate_steps(assembly: Assembly, plate: CarrierPlate, holes: str) -> Iterato
 def _turning_step(assembly: Assembly, standing: Sequence[str]) -> str:
     """Step that turns the feet of these modules to the incidence by their scales."""
     foot = foot_of(assembly.device)
-    found, *_ = assembly.screws_of(BoltedJoint.FOOT_ON_TRUNK, BoltedJoint.FOOT_ON_PLATE)
-    modules = [each for each in assembly.device.modules if each.name in standing]
-    line, met = _scribed(assembly.device, modules)
-    values = tuple(dict.fromkeys(met.values()))
-    each_own = (f"{value} ({name})" for name, value in met.items())
+    tightened_screws, *_ = assembly.screws_of(BoltedJoint.FOOT_ON_TRUNK, BoltedJoint.FOOT_ON_PLATE)
+    modules = [module for module in assembly.device.modules if module.name in standing]
+    line, readings = _scribed(assembly.device, modules)
+    values = tuple(dict.fromkeys(readings.values()))
+    each_own = (f"{value} ({name})" for name, value in readings.items())
     scale = values[0] if len(values) == 1 else ", ".join(each_own)
     # Away from its motor.
     outward = {
@@ -444,33 +446,33 @@ def _turning_step(assembly: Assembly, standing: Sequence[str]) -> str:
         for name, angle in outward.items()
     )
     long, degree = 360.0 / LONG_MARKS, 1e3 * np.radians(foot.marks_radius)
-    held, plate = found.fastening, assembly.device.plate
+    fastening, plate = tightened_screws.fastening, assembly.device.plate
     into = "the threads of the plate" if plate else "threads, inserts or nuts of the trunk"
     # Pins through the feet if friction alone does not keep them from turning.
-    asked, pinned = unheld_moment(assembly.device, assembly.margins), ""
-    if asked:
+    unheld, pinned = unheld_moment(assembly.device, assembly.margins), ""
+    if unheld:
         pinned = (
             " Then drill 3 mm through the base of each foot, clear of its slots, into what it "
             "stands on, and put a pin in: in a maneuver the wheel twists its foot with up to "
-            f"{significant(asked, 2)} N m, and the friction of its screws holds "
+            f"{significant(unheld, 2)} N m, and the friction of its screws holds "
             f"{significant(foot_hold(assembly.device).turning, 2)} N m."
         )
     return (
         f"The scale's 0 is the long mark square to the wheel's axis; marks are {long / 3.0:g} deg "
         f"apart, long ones {long:g}, and a degree is {degree:.2g} mm at their ends. {line}, and "
         f"turn the foot until that line meets the scale at {scale}, its lid looking {looks}: by "
-        f"eye to a degree.{_marks_apart(assembly.device, modules)} Tighten {held.count} x "
-        f"{held.designation}{assembly.number(held)}{found.with_washers}, with "
-        f"{significant(found.torque, 2)} N m each, into {into}."
-        f"{_under_motor(assembly, found)}{pinned}"
+        f"eye to a degree.{_marks_apart(assembly.device, modules)} Tighten {fastening.count} x "
+        f"{fastening.designation}{assembly.number(fastening)}{tightened_screws.with_washers}, with "
+        f"{significant(tightened_screws.torque, 2)} N m each, into {into}."
+        f"{_under_motor(assembly, tightened_screws)}{pinned}"
     )
 
 
 def _mate(module: Module, modules: Sequence[Module]) -> Module | None:
     """Module mirrored across the robot's mid-plane; None if there is none."""
     mirrored = module.position * [1.0, -1.0, 1.0]
-    others = (each for each in modules if each is not module)
-    return next((each for each in others if np.allclose(each.position, mirrored)), None)
+    others = (other for other in modules if other is not module)
+    return next((other for other in others if np.allclose(other.position, mirrored)), None)
 
 
 def _scribed(device: Device, modules: Sequence[Module]) -> tuple[str, dict[str, str]]:
@@ -479,7 +481,7 @@ def _scribed(device: Device, modules: Sequence[Module]) -> tuple[str, dict[str, 
     A base overhangs its plate's edge, except at the arm to the other foot or to the plate's middle;
     the line is on that arm. On the trunk, if no foot is opposite, it points forward.
     """
-    plate, met = device.plate, dict[str, str]()
+    plate, readings = device.plate, dict[str, str]()
     ring = plate is not None and plate.arms > len(SIDES)
     if plate is not None and ring:
         ends = [np.array(plate.position)] * len(modules)
@@ -490,41 +492,46 @@ def _scribed(device: Device, modules: Sequence[Module]) -> tuple[str, dict[str, 
         # The angle of each axis from the lateral direction: in a ring they differ.
         for module in modules:
             angle = float(np.arctan2(*np.abs(module.axis[:2])))
-            met[module.name] = format_quantity(angle, "deg")
-        return "First scribe a line forward on the trunk through the middle of each foot", met
+            readings[module.name] = format_quantity(angle, "deg")
+        return "First scribe a line forward on the trunk through the middle of each foot", readings
     for module, end in zip(modules, ends, strict=True):
         inward = (end - module.position)[:2]
         inward /= np.linalg.norm(inward)
         cosine = float(-module.frame[:2, 1] @ inward)
         below = "under its motor" if cosine >= 0.0 else "under its lid"
         off = format_quantity(float(np.arccos(min(1.0, abs(cosine)))), "deg")
-        met[module.name] = f"{off} from the long mark {below}"
-    on = "trunk" if plate is None else "plate"
-    to = "that of the plate" if ring else "that of the foot opposite"
-    return f"First scribe a line on the {on} from the middle of each foot to {to}", met
+        readings[module.name] = f"{off} from the long mark {below}"
+    surface = "trunk" if plate is None else "plate"
+    target = "that of the plate" if ring else "that of the foot opposite"
+    return (
+        f"First scribe a line on the {surface} from the middle of each foot to {target}",
+        readings,
+    )
 
 
 def _marks_apart(device: Device, modules: Sequence[Module]) -> str:
     """Distance of the 0 marks of opposite feet, to check their angles; empty without such feet."""
-    radius, found = foot_of(device).marks_radius, {}
+    radius, distances_by_degree = foot_of(device).marks_radius, {}
     for module in modules:
         mate = _mate(module, modules)
         if mate is None or module.position[1] < 0.0:
             continue
         ends = []
-        for each in (module, mate):
-            x, y = each.frame[:2, 1]
+        for foot_module in (module, mate):
+            x, y = foot_module.frame[:2, 1]
             ahead = np.array([y, -x]) * (1.0 if y > 0.0 else -1.0)
-            ends.append([each.position[:2] + sense * radius * ahead for sense in (1.0, -1.0)])
+            ends.append(
+                [foot_module.position[:2] + sense * radius * ahead for sense in (1.0, -1.0)]
+            )
         front, back = (
             1e3 * float(np.linalg.norm(one - two)) for one, two in zip(*ends, strict=True)
         )
         degree = 4e3 * np.radians(radius * abs(module.frame[1, 1]))
         if degree >= LEAST_DEGREE:
-            found[f"{front:.1f} mm in front and {back:.1f} mm behind"] = degree
-    if not found:
+            distances_by_degree[f"{front:.1f} mm in front and {back:.1f} mm behind"] = degree
+    if not distances_by_degree:
         return ""
-    distances, degree = " or ".join(found), min(found.values())
+    distances, degree = " or ".join(distances_by_degree), min(distances_by_degree.values())
     return (
         " Then measure with a steel rule on both bases between the outer ends of the 0 marks of "
         f"opposite feet: {distances}. Each degree of both feet changes the difference by "
@@ -532,18 +539,20 @@ def _marks_apart(device: Device, modules: Sequence[Module]) -> str:
     )
 
 
-def room_above(device: Device, found: Tightened) -> float | None:
+def room_above(device: Device, tightened_screws: Tightened) -> float | None:
     """Least space above foot screws under motor or cage [m]; None if there are none."""
-    foot, driven = foot_of(device), found.fastening.screw
-    corner = driven.key / sqrt(3.0)
-    top = float(foot.base) + driven.head_height + (WASHER_HEIGHT if found.washers else 0.0)
+    foot, screw = foot_of(device), tightened_screws.fastening.screw
+    corner = screw.key / sqrt(3.0)
+    top = (
+        float(foot.base) + screw.head_height + (WASHER_HEIGHT if tightened_screws.washers else 0.0)
+    )
     rooms = []
     for along, across in _screws_aside(device):
-        beside = max(0.0, abs(across) - corner)
+        overlap = max(0.0, abs(across) - corner)
         rooms += [
-            foot.wheel_height + solid.up - sqrt(solid.radius**2 - beside**2) - top
+            foot.wheel_height + solid.up - sqrt(solid.radius**2 - overlap**2) - top
             for solid in drive_solids(device)
-            if solid.low < along + corner and along - corner < solid.high and beside < solid.radius
+            if solid.low < along + corner and along - corner < solid.high and overlap < solid.radius
         ]
     return min(rooms, default=None)
 
@@ -561,9 +570,9 @@ def _screws_aside(device: Device) -> Iterator[tuple[float, float]]:
         yield from ((off, off), (-off, -off))
 
 
-def _under_motor(assembly: Assembly, found: Tightened) -> str:
+def _under_motor(assembly: Assembly, tightened_screws: Tightened) -> str:
     """How to tighten a foot screw under motor or cage; empty if there is none."""
-    room, driven = room_above(assembly.device, found), found.fastening.screw
+    room, screw = room_above(assembly.device, tightened_screws), tightened_screws.fastening.screw
     if room is None:
         return ""
     if room < LEAST_ROOM:
@@ -574,8 +583,8 @@ def _under_motor(assembly: Assembly, found: Tightened) -> str:
     cut = "" if room > KEY_LEG else f", its short leg cut to {1e3 * room - 1.0:.0f} mm,"
     return (
         f" One of them is under the motor, with {1e3 * room:.0f} mm above its head: tighten it by "
-        f"a hex key of {1e3 * driven.key:g} mm{cut} with "
-        f"{found.torque / KEY_ARM:.1f} N at {1e3 * KEY_ARM:.0f} mm of its long leg."
+        f"a hex key of {1e3 * screw.key:g} mm{cut} with "
+        f"{tightened_screws.torque / KEY_ARM:.1f} N at {1e3 * KEY_ARM:.0f} mm of its long leg."
     )
 
 
@@ -585,8 +594,8 @@ def _pedestal_steps(assembly: Assembly) -> Iterator[str]:
     for kind in kinds:
         name, one = kind.name, kind.alike[0]
         turned = ", ".join(
-            f"{format_quantity(each.heading, 'deg', digits=3)} ({each.module})"
-            for each in kind.alike
+            f"{format_quantity(pedestal.heading, 'deg', digits=3)} ({pedestal.module})"
+            for pedestal in kind.alike
         )
         yield (
             f"Print {len(kind.alike)} x {name}{assembly.number(name)} (cad/{name}.stl) in PETG on "

@@ -47,9 +47,9 @@ def balance(assembly: Assembly) -> Iterator[str]:
         f"centre of mass is then {_two(1e6 * balance.eccentricity)} µm off the axis."
     )
     if balance.off_centre is not None:
-        found = balance.off_centre * wheel.mass
+        unbalance = balance.off_centre * wheel.mass
         yield (
-            f"As built it may be {1e6 * balance.off_centre:.0f} µm off, {_two(1e6 * found)} g "
+            f"As built it may be {1e6 * balance.off_centre:.0f} µm off, {_two(1e6 * unbalance)} g "
             f"mm (turning, and {balance.centred_by}). So balance it on its motor, and mark "
             "both, so that they go back together the same way."
         )
@@ -84,10 +84,10 @@ def balance(assembly: Assembly) -> Iterator[str]:
             f"the module by {_two(1e6 * mode.amplitude)} µm, with {weights} "
             f"times its weight ({DAMPING:.0%} damping, assumed)."
         )
-    motor, held = assembly.device.motor, ""
+    motor, friction_text = assembly.device.motor, ""
     if motor.no_load_current and motor.torque_constant:
         friction = motor.no_load_current * motor.torque_constant / STANDARD_GRAVITY
-        held = (
+        friction_text = (
             " Rolling it on level blades does not find it: the motor's friction alone holds up to "
             f"{significant(1e6 * friction, 2)} g mm."
         )
@@ -98,18 +98,18 @@ def balance(assembly: Assembly) -> Iterator[str]:
         "first reading, and around its points at those angles circles with the other three "
         "readings: they meet in one point. The heavy side is opposite that point, and the "
         "unbalance is the wax's times the first reading over the point's distance from the "
-        f"centre.{held}"
+        f"centre.{friction_text}"
     )
 
 
 def _at_the_rim(assembly: Assembly) -> Iterator[str]:
     """How to drill both faces of a rim whose inner face is next to the drum's floor."""
     device, mount = assembly.device, motor_mount(assembly.device)
-    found = assembly.screws_of(BoltedJoint.MOTOR, BoltedJoint.MOTOR_IN_CAGE)
-    if not found or "drum" not in assembly.numbers:
+    motor_screws = assembly.screws_of(BoltedJoint.MOTOR, BoltedJoint.MOTOR_IN_CAGE)
+    if not motor_screws or "drum" not in assembly.numbers:
         return
-    held = found[0].fastening
-    screws = f"{held.count} screws{assembly.number(held)}"
+    fastening = motor_screws[0].fastening
+    screws = f"{fastening.count} screws{assembly.number(fastening)}"
     chips = "Chips stick to the motor's magnets: tape over all openings, and drill with it on top."
     back = "Put both back as they were marked, and check the run-out again."
     across, window = device.motor.diameter or 0.0, 2.0 * mount.holes.pilot_radius
@@ -126,11 +126,11 @@ def _at_the_rim(assembly: Assembly) -> Iterator[str]:
             f"window of {1e3 * window:.1f} mm. {chips} {back}"
         )
     elif on_rotor := assembly.screws_of(BoltedJoint.WHEEL):
-        held = on_rotor[0].fastening
+        fastening = on_rotor[0].fastening
         yield (
             f"The inner face is {1e3 * CLEARANCE:g} mm off the drum's floor: mark how the wheel "
-            f"stands on the motor, undo its {held.count} screws{assembly.number(held)}, and drill "
-            f"it off its motor. {back}"
+            f"stands on the motor, undo its {fastening.count} screws{assembly.number(fastening)}, "
+            f"and drill it off its motor. {back}"
         )
     else:
         yield (
@@ -201,7 +201,7 @@ def sweep(assembly: Assembly) -> Iterator[str]:
     most = "what the maneuvers reach at most" if flown else "its top speed"
     computed = ", ".join(
         f"{mode.name} {60.0 * mode.frequency:,.0f} rpm"
-        for mode in sorted(modes, key=lambda each: each.frequency)
+        for mode in sorted(modes, key=lambda mode: mode.frequency)
     )
     yield (
         "Hold the robot by its trunk, lids on, nobody in the wheels' planes, an accelerometer "
@@ -239,13 +239,13 @@ def _stiffer(device: Device, modes: Sequence[Resonance]) -> Iterator[str]:
     plate = device.plate
     if plate is None or plate.mast is not None or "plate" not in {mode.name for mode in modes}:
         return
-    thick = next((each for each in STOCK if each > plate.thickness + 1e-6), None)
+    thick = next((thickness for thickness in STOCK if thickness > plate.thickness + 1e-6), None)
     if thick is None:
         return
     stiff = replace(plate, thickness=thick)
     frequency = plate_frequency(stiff, device.module_mass)
-    heavier = sum(plate_part(each).mass() for each in stiff.single_plates)
-    heavier -= sum(plate_part(each).mass() for each in plate.single_plates)
+    heavier = sum(plate_part(single).mass() for single in stiff.single_plates)
+    heavier -= sum(plate_part(single).mass() for single in plate.single_plates)
     longer = 1e3 * (thick - plate.thickness)
     yield (
         f"make the plate {1e3 * thick:g} mm thick, all screws through it {longer:g} mm longer: "
@@ -321,16 +321,16 @@ def _runaway(assembly: Assembly) -> Iterator[str]:
         return
     speed = SPIN_TEST * motor.no_load_speed
     worst = burst_of(assembly.device, speed)
-    asked = f"holding it takes {_at_least(worst.steel)} mm of mild steel"
+    containment = f"holding it takes {_at_least(worst.steel)} mm of mild steel"
     if built:
-        enough = "thick enough" if built >= worst.steel else "too thin"
-        asked += f", and the ring built in is {enough}"
+        verdict = "thick enough" if built >= worst.steel else "too thin"
+        containment += f", and the ring built in is {verdict}"
     yield (
         f"The wheel law, which computes with {motor.bus_voltage:g} V, drives no wheel past "
         f"{rpm(top)}, however full the battery is, and brakes one that is faster. A controller "
         "that ignores it may run away: on a battery with "
         f"{SPIN_TEST:.0%} of that voltage to {rpm(speed)}, where a third of the wheel has "
-        f"{_two(worst.fragment.energy)} J; {asked}."
+        f"{_two(worst.fragment.energy)} J; {containment}."
     )
 
 

@@ -30,7 +30,7 @@ from ocs_design.export.raster import view_of
 
 _CAMERA, _UP = (0.80, -0.38, 0.55), (0.0, -1.0, 0.0)
 
-_DRAWN = Pen(0.25)
+_PEN = Pen(0.25)
 
 _GAPS, _SCREW_GAP = (1.4, 1.2, 1.05, 0.9, 0.8, 0.7, 0.6, 0.52, 0.45, 0.4), 0.55
 """Gaps to try between exploded pieces, relative to the largest radius; factor before screws."""
@@ -85,16 +85,17 @@ def exploded_view(
         low, high = points.min(axis=0), points.max(axis=0)
         tried.append((_fitting(high - low, room), apart, low, high))
     # Trade-off of size against overlap: doubling the gap is worth a factor of 1.4 in scale.
-    worth = [
-        each[0].paper / each[0].part * gap**0.5 for each, gap in zip(tried, _GAPS, strict=True)
+    scores = [
+        layout[0].paper / layout[0].part * gap**0.5
+        for layout, gap in zip(tried, _GAPS, strict=True)
     ]
-    scale, apart, low, high = tried[worth.index(max(worth))]
+    scale, apart, low, high = tried[scores.index(max(scores))]
     meshes = [Mesh(piece.mesh.vertices @ view.T, piece.mesh.triangles) for piece in apart]
     lines = visible_lines(meshes)
     place = _placing(scale, (low + high) / 2.0, box)
     items: list[Item] = []
     for chains in lines:
-        items += [Polyline(tuple(map(place, chain)), _DRAWN) for chain in chains]
+        items += [Polyline(tuple(map(place, chain)), _PEN) for chain in chains]
     heights = np.concatenate([piece.mesh.vertices[:, 2] for piece in apart])
     ends = np.array([[0.0, 0.0, heights.min() - 0.01], [0.0, 0.0, heights.max() + 0.01]])
     ends = np.asarray((ends @ view.T)[:, :2])
@@ -139,7 +140,7 @@ def section_view(
     scale, middle = _fitting(high - low, room), (low + high) / 2.0
     place = _placing(scale, middle, box)
     items: list[Item] = []
-    beside: dict[bool, list[tuple[int, tuple[float, float]]]] = {True: [], False: []}
+    by_side: dict[bool, list[tuple[int, tuple[float, float]]]] = {True: [], False: []}
     leaning = cycle((False, True))
     for piece, chains in cut:
         lines = [tuple(map(place, chain)) for chain in chains]
@@ -153,10 +154,10 @@ def section_view(
         ends = corners[:, 0] if behind else -corners[:, 0]
         # The highest of the outermost corners.
         outer = corners[np.lexsort((-corners[:, 1], np.rint(1e6 * ends)))[0]]
-        beside[behind].append((numbers[piece.key], place(outer)))
+        by_side[behind].append((numbers[piece.key], place(outer)))
     along = np.array([0.0, 1.0] if standing else [1.0, 0.0])
     items.append(Line(place(along * (low - 0.004)), place(along * (high + 0.004)), CENTRE))
-    for behind, marks in beside.items():
+    for behind, marks in by_side.items():
         x = left + BALLOON if behind else right - BALLOON
         items += _balloons(marks, 1, x, (top, bottom))
     return items, scale
@@ -209,13 +210,15 @@ def _balloons(
     return items
 
 
-def spread(wanted: Sequence[float], least: float, room: tuple[float, float]) -> list[float]:
-    """Ascending positions near the wanted ones, at least `least` apart, in `room` if they fit."""
+def spread(targets: Sequence[float], spacing: float, room: tuple[float, float]) -> list[float]:
+    """Ascending positions near the wanted ones, at least `spacing` apart, in `room` if they fit."""
     places: list[float] = []
-    for each in wanted:
-        places.append(max(each, places[-1] + least) if places else max(each, room[0] + least / 2.0))
-    end = room[1] - least / 2.0
+    for target in targets:
+        places.append(
+            max(target, places[-1] + spacing) if places else max(target, room[0] + spacing / 2.0)
+        )
+    end = room[1] - spacing / 2.0
     for index in range(len(places) - 1, -1, -1):
         places[index] = min(places[index], end)
-        end = places[index] - least
+        end = places[index] - spacing
     return places

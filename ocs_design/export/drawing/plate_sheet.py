@@ -65,7 +65,7 @@ _NAME_INSIDE = 5.0
 _CLEARANCE = 0.25
 """Clearance of hole names from lines [mm]."""
 
-_BETWEEN = 40.0
+_VIEW_DISTANCE = 40.0
 """Distance between two views [mm]."""
 
 
@@ -285,7 +285,7 @@ def _mast_views(plate: CarrierPlate, mast: Mast) -> tuple[Scale, list[Item]]:
     length, height = mast.face + mast.off - arm_end, mast.high - mast.low
     left, top, right, bottom = _MAST_VIEW
     scale = largest_scale(
-        (length + mast.side, right - left - _BETWEEN), (height, bottom - top - 12.0)
+        (length + mast.side, right - left - _VIEW_DISTANCE), (height, bottom - top - 12.0)
     )
     start = left + scale(mast.face + mast.off)
     top_y = top + 4.0
@@ -294,7 +294,7 @@ def _mast_views(plate: CarrierPlate, mast: Mast) -> tuple[Scale, list[Item]]:
         """Point of the view from the left: forward is on the left."""
         return start - scale(x), top_y + scale(mast.high - z)
 
-    behind = left + scale(length) + _BETWEEN + scale(half_side)
+    behind = left + scale(length) + _VIEW_DISTANCE + scale(half_side)
 
     def back(y: float, z: float) -> Point:
         """Point of the view from behind: left is left."""

@@ -123,8 +123,8 @@ def section_view(wheel: Wheel, layout: SheetLayout) -> list[Item]:
     items += _edges_behind(wheel, layout)
     items.append(Line((x - half - 4.0, y), (x + half + 4.0, y), CENTRE))
     for ring, width, side in _cut_rings(wheel):
-        beyond = width + scale.length(2.0)
-        along = [(z, ring.circle_radius) for z in (-beyond, beyond)]
+        half_length = width + scale.length(2.0)
+        along = [(z, ring.circle_radius) for z in (-half_length, half_length)]
         start, end = _on_sheet(along, layout, side)
         items.append(Line(start, end, CENTRE))
     # Diameters that have space for their text, side by side, the smallest next to the outline.
