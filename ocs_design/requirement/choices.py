@@ -69,7 +69,7 @@ def motor_choice(specification: Specification, robot: Robot) -> MotorChoice | No
     offered = _motors(specification, supply.voltage)
     named = specification.flywheel.material or STEEL
     return MotorChoice(
-        motors=tuple(_with_controller(each, specification) for each in offered),
+        motors=tuple(_with_controller(candidate, specification) for candidate in offered),
         gears=tuple(
             replace(stage, torque_max=min(stage.torque_max, limit))
             for stage in _gears(specification)
@@ -176,7 +176,9 @@ def _motors(specification: Specification, voltage: float = 0.0) -> tuple[Motor, 
         return available
     complete = tuple(motor for motor in available if not build_gaps(motor))
     if not complete:
-        missing = [f"{each.name} lacks {', '.join(build_gaps(each))}" for each in available]
+        missing = [
+            f"{candidate.name} lacks {', '.join(build_gaps(candidate))}" for candidate in available
+        ]
         raise SpecificationError(
             "every motor lacks data needed to build: " + "; ".join(missing[:MOTORS_NAMED]),
             hint="Fill in the data, name the motor with --motor, or allow incomplete motors with "

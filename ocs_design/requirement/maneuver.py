@@ -256,7 +256,9 @@ class Maneuver(ABC):
         for name in names:
             value = getattr(self, name)
             row = isinstance(value, tuple)
-            changes[name] = tuple(factor * each for each in value) if row else factor * value
+            changes[name] = (
+                tuple(factor * component for component in value) if row else factor * value
+            )
         return replace(self, **changes)
 
     @abstractmethod

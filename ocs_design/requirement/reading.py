@@ -83,9 +83,9 @@ def specification_of(source: Specification | AnyPath) -> Specification:
 def _plain(value: object) -> object:
     """Value as a TOML file would have it: paths as text, tuples as lists."""
     if isinstance(value, Mapping):
-        return {name: _plain(each) for name, each in value.items()}
+        return {name: _plain(entry) for name, entry in value.items()}
     if isinstance(value, list | tuple):
-        return [_plain(each) for each in value]
+        return [_plain(entry) for entry in value]
     return os.fspath(value) if isinstance(value, os.PathLike) else value
 
 
@@ -110,8 +110,8 @@ def _checked(content: Mapping[str, object], name: str) -> Specification:
     if not isinstance(tables, list):
         faults.append("maneuver: write each maneuver as a [[maneuver]] table")
         tables = []
-    asked = sections["requirement"].gravity
-    gravity = STANDARD_GRAVITY if asked is None else asked
+    specified_gravity = sections["requirement"].gravity
+    gravity = STANDARD_GRAVITY if specified_gravity is None else specified_gravity
     for index, entry in enumerate(tables):
         table = faults.table(entry, f"maneuver[{index}]")
         maneuver = _maneuver(table, index, gravity, faults)

@@ -222,7 +222,7 @@ class Resolved:
     def estimated(self, factors: Mapping[str, float]) -> "Resolved":
         """Requirement with these factors on the estimated demand of turns, by name of maneuver."""
         corrected = self.requirement.changed(
-            lambda each: each.corrected(factors.get(each.name, 1.0))
+            lambda maneuver: maneuver.corrected(factors.get(maneuver.name, 1.0))
         )
         return replace(self, requirement=corrected)
 
@@ -233,7 +233,8 @@ class Resolved:
             requirement: of robot and device.
         """
         text = tuple(
-            assumption_with_device(each, requirement.maneuvers) for each in self.assumptions
+            assumption_with_device(assumption, requirement.maneuvers)
+            for assumption in self.assumptions
         )
         return replace(self, requirement=requirement, assumptions=text)
 
@@ -244,7 +245,7 @@ def _assumptions(
     """One sentence on each default in `resolved`."""
     flywheel, motor, scale = specification.flywheel, specification.motor, FroudeScale.of(robot)
     requirement, envelope, choice = resolved.requirement, resolved.envelope, resolved.choice
-    lands = any(each.gravity and not each.on_pivot for each in requirement.maneuvers)
+    lands = any(maneuver.gravity and not maneuver.on_pivot for maneuver in requirement.maneuvers)
     if robot.standing_height is None and lands:
         height = format_quantity(requirement.standing_height, "mm", 3)
         yield f"No legs: standing height {height}, Solo12's scaled by radius of gyration."
@@ -300,12 +301,12 @@ def _assumptions(
             f"Reserve: a design uses {RESERVE:.0%} of voltage, current and speed limit; "
             "the rest is left to feedback."
         )
-        asked, noticed = specification.requirement, requirement.detection or 0.0
+        requirement_section, noticed = specification.requirement, requirement.detection or 0.0
         assumed = {
             f"Reliability: {RELIABILITY:.0%} of robots sampled from `[reality]` must "
-            "pass.": asked.reliability is None,
+            "pass.": requirement_section.reliability is None,
             f"Detection: a failed drive is detected after {format_quantity(noticed, 'ms')}."
-            "": asked.notices is not None and asked.detection is None,
+            "": requirement_section.notices is not None and requirement_section.detection is None,
         }
         yield from (text for text, holds in assumed.items() if holds)
         return
@@ -329,7 +330,7 @@ def _assumed_supply(specified: SupplySection, supply: Supply) -> Iterator[str]:
         yield f"Supply: {', '.join(assumed)}."
     if specified.controllers in {None, AUTO}:
         base, per_current = (
-            format_quantity(each, "g", 3) for each in (BASE_MASS, MASS_PER_CURRENT)
+            format_quantity(mass, "g", 3) for mass in (BASE_MASS, MASS_PER_CURRENT)
         )
         yield f"Controllers: {base} each, plus {per_current} per ampere of peak phase current."
 
@@ -379,7 +380,7 @@ def resolve(
     Raises:
         SpecificationError: keys that contradict each other or the robot; all are listed.
     """
-    flywheel, asked = specification.flywheel, specification.requirement
+    flywheel, requirement_section = specification.flywheel, specification.requirement
     # Unlike files, options of a command and arguments of Python have not been checked.
     if against := tuple(contradictions(specification)):
         raise SpecificationError("these requirements contradict each other:", problems=against)
@@ -396,16 +397,16 @@ def resolve(
             envelope = replace(envelope, **{limit: specified})
     maneuvers = specification.maneuvers
     if specification.takes_default_maneuvers:
-        maneuvers = default_maneuvers(robot, asked.gravity or STANDARD_GRAVITY)
-    worded = worded_maneuvers(asked, robot, (each.name for each in maneuvers))
+        maneuvers = default_maneuvers(robot, requirement_section.gravity or STANDARD_GRAVITY)
+    worded = worded_maneuvers(requirement_section, robot, (maneuver.name for maneuver in maneuvers))
     maneuvers = (*maneuvers, *worded.maneuvers)
     requirement = Requirement(
         maneuvers=maneuvers,
-        rate_change=asked.rate_change,
-        wheel_speed_max=asked.wheel_speed_max or WHEEL_SPEED_MAX,
-        spin_inertia=asked.spin_inertia,
+        rate_change=requirement_section.rate_change,
+        wheel_speed_max=requirement_section.wheel_speed_max or WHEEL_SPEED_MAX,
+        spin_inertia=requirement_section.spin_inertia,
         standing_height=standing_height(robot),
-        detection=asked.notices,
+        detection=requirement_section.notices,
     ).on(robot.mass_properties)
     faults = tuple(
         robot_contradictions(specification, robot, robot_size, requirement, envelope, varied=varied)
@@ -423,7 +424,9 @@ def resolve(
         torque_max=specification.motor.torque_max,
         choice=choice,
         assumptions=(),
-        reliability=asked.reliability if choice is None else asked.reliability or RELIABILITY,
+        reliability=requirement_section.reliability
+        if choice is None
+        else requirement_section.reliability or RELIABILITY,
     )
     assumptions = tuple(_assumptions(specification, robot, resolved, worded))
     return replace(resolved, assumptions=assumptions)

@@ -44,12 +44,16 @@ class Specification:
     @property
     def takes_default_maneuvers(self) -> bool:
         """Whether the paper's three maneuvers apply: by default, or because the user names them."""
-        asked = self.requirement
-        if self.maneuvers or asked.maneuvers == "none":
+        requirement = self.requirement
+        if self.maneuvers or requirement.maneuvers == "none":
             return False
         # A specified requirement is complete: nothing is added to it.
-        nothing = asked.rate_change is None and asked.spin_inertia is None and not asked.is_worded
-        return nothing or asked.maneuvers is not None
+        is_empty = (
+            requirement.rate_change is None
+            and requirement.spin_inertia is None
+            and not requirement.is_worded
+        )
+        return is_empty or requirement.maneuvers is not None
 
     @property
     def maneuvers_are_defaults(self) -> bool:
@@ -68,7 +72,7 @@ class Specification:
 
     def __repr__(self) -> str:
         specified = [f"{path}={value!r}" for path, value in self.specified.items()]
-        specified += [f"maneuver {each.name}" for each in self.maneuvers]
+        specified += [f"maneuver {maneuver.name}" for maneuver in self.maneuvers]
         text = ", ".join(specified) or "nothing specified"
         more = " ..." if len(text) > LONGEST_REPR else ""
         return f"<Specification: {text[:LONGEST_REPR]}{more}>"
@@ -102,8 +106,8 @@ def merge(base: Specification, override: Specification) -> Specification:
             base = replace(base, robot=replace(base.robot, **dict.fromkeys(others)))
             break
     if override.requirement.is_worded:
-        asked = replace(base.requirement.without_words(), maneuvers=None)
-        base = replace(base, requirement=asked, maneuvers=())
+        requirement = replace(base.requirement.without_words(), maneuvers=None)
+        base = replace(base, requirement=requirement, maneuvers=())
     sections = {
         name: merge_section(getattr(base, name), getattr(override, name)) for name in SECTIONS
     }

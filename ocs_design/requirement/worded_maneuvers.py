@@ -224,11 +224,11 @@ def _kicked(kick: Kick, jump: Disturbance, robot: Robot) -> tuple[Disturbance, s
     kicked = replace(jump, name="kick", impulse=impulse, point=point).on(robot.mass_properties)
     angular_impulse = np.multiply(kicked.torque, kicked.duration)
     speed_gained = np.linalg.norm(kicked.velocity_change)
-    where = ", ".join(f"{1e3 * each:.3g}" for each in point)
-    direction = ", ".join(f"{each:.3g}" for each in along)
+    where = ", ".join(f"{1e3 * coordinate:.3g}" for coordinate in point)
+    direction = ", ".join(f"{component:.3g}" for component in along)
     default = " (from the side, as no direction is given)" if kick.along is None else ""
     link = f"{kick.point}, " if isinstance(kick.point, str) else ""
-    roll, pitch, yaw = (f"{each:.3g}" for each in angular_impulse)
+    roll, pitch, yaw = (f"{component:.3g}" for component in angular_impulse)
     spin = abs(np.linalg.solve(robot.inertia, angular_impulse)[2])
     rate = format_quantity(spin, "deg/s", 2)
     heading = f" (the wheels cannot cancel the yaw part, which turns it at {rate})"
@@ -282,7 +282,7 @@ def _frame_of(link: str, robot: Robot) -> Vector3:
     if index is None:
         links = tuple(robot.tree.body_of_link)
         moved_links = [
-            each.name for each in robot.tree.bodies if each.joint and each.joint.name == link
+            body.name for body in robot.tree.bodies if body.joint and body.joint.name == link
         ]
         raise SpecificationError(
             f"requirement.kick: the robot has no link {link!r}",

@@ -183,7 +183,9 @@ def _mast_place(robot: Robot, feet: Feet, layout: Layout, is_formed: bool) -> _M
             for (far, plates), height, spacer in product(arms.items(), heights, spacers)
         ]
         # A thicker block is heavier than a longer upright.
-        return sorted(found, key=lambda each: (each[3], search.added_inertia(each[0])))
+        return sorted(
+            found, key=lambda candidate: (candidate[3], search.added_inertia(candidate[0]))
+        )
 
     each_step = (spots(share * size.reach) for share in _STEPS)
     for place, far, height, spacer in chain.from_iterable(each_step):
@@ -203,7 +205,7 @@ def _mast_place(robot: Robot, feet: Feet, layout: Layout, is_formed: bool) -> _M
             continue
         spot = _MastPlace(far, height, spacer, is_formed)
         masted = (_footing_on_mast(back, feet, plate, search, spot) for plate in arms[far])
-        for footing in (each for each in masted if each is not None):
+        for footing in filter(None, masted):
             # A wider tube moves modules by less than the clearance around them.
             if not search.is_free(footing.place):
                 break
@@ -230,9 +232,9 @@ def _arm_plates(feet: Feet, *, far: bool) -> Iterator[CarrierPlate]:
         # Thicker plates stand higher, which bends the arms more.
         bearing = (
             plate
-            for each in blanks
-            if each.shape.half_width(np.asarray(side / 2.0)) <= mast.back
-            and (plate := next(thick_enough(each, feet, MAST_YIELD), None)) is not None
+            for blank in blanks
+            if blank.shape.half_width(np.asarray(side / 2.0)) <= mast.back
+            and (plate := next(thick_enough(blank, feet, MAST_YIELD), None)) is not None
             and arm_stress(plate, feet.mass, feet.height) <= MAST_YIELD
         )
         lightest = min(bearing, key=lambda plate: plate_part(plate).mass(), default=None)
@@ -387,7 +389,7 @@ def _patterns(
     return [
         (z[0], z[1], aside, ((deep[0], far[0]), (deep[1], far[1])))
         for z, aside, deep, far in zip(
-            *(each[order].tolist() for each in (pairs.z, pairs.aside, pairs.deep, pairs.far)),
+            *(columns[order].tolist() for columns in (pairs.z, pairs.aside, pairs.deep, pairs.far)),
             strict=True,
         )
     ]

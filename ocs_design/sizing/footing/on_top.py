@@ -162,7 +162,7 @@ def footing_on_pedestals(
         return None
     if specified:
         supports = _supports(surface, device, fixed=True)
-        place = place_at(tuple(np.ravel([each.position for each in device.modules])), layout)
+        place = place_at(tuple(np.ravel([module.position for module in device.modules])), layout)
         return None if supports is None else Footing(place, None, supports[1])
     search = Search.of(robot, size, layout)
     ring, start = np.array(ring_of(layout, size.reach)), round(float(robot.com[0]), 6) + 0.0
@@ -182,7 +182,7 @@ def footing_on_pedestals(
         # Not rounded, so that a pedestal's seat coincides with its foot.
         origins = tuple((x, 0.0, height - size.wheel_height) for height in heights)
         place = replace(ring_place, origins=origins)
-        solids = [solid for each in pedestals for solid in pedestal_solids(each)]
+        solids = [solid for pedestal in pedestals for solid in pedestal_solids(pedestal)]
         if (
             search.clears_limbs(solids)
             and search.is_free(place)

@@ -94,7 +94,7 @@ def co_design(problem: SelectionProblem, selected: Candidate) -> CoDesign:
     )
     if problem.requirement.spin_inertia is not None:
         return rejected
-    if any(each.on_pivot for each in problem.requirement.maneuvers):
+    if any(maneuver.on_pivot for maneuver in problem.requirement.maneuvers):
         return replace(
             rejected, note="the selected device is kept: no co-design of a robot on a pivot"
         )
@@ -188,20 +188,21 @@ class FreeDevice:
         room = float(selected.limits.outer_radius_max) / selected.outer_radius
         # Relative spin inertias for which a module fits the envelope.
         modules = with_wheels(problem, selected, _WHEELS, np.ones_like(_WHEELS))
-        factors = np.array([each.spin_inertia for each in modules]) / selected.spin_inertia
+        factors = np.array([module.spin_inertia for module in modules]) / selected.spin_inertia
         radii = np.linspace(_RADII[0], max(min(_RADII[-1], room), 1.0), _RADII.size)
         if factors.size < _SPLINE_POINTS_MIN:
             return None
         # In the order of a tensor, the first dimension fastest.
-        spin, outer = (each.ravel() for each in np.meshgrid(factors, radii))
+        spin, outer = (grid.ravel() for grid in np.meshgrid(factors, radii))
         values = [
             np.append(
-                each.mass / selected.mass,
+                device.mass / selected.mass,
                 np.linalg.solve(
-                    terms, [each.total_at(problem.robot, angle).inertia.ravel() for angle in angles]
+                    terms,
+                    [device.total_at(problem.robot, angle).inertia.ravel() for angle in angles],
                 ),
             )
-            for each in with_wheels(problem, selected, spin, outer)
+            for device in with_wheels(problem, selected, spin, outer)
         ]
         figures = ca.interpolant("figures", "bspline", [factors, radii], np.ravel(values))
         lower, upper = (np.array([factors[i], radii[i]]) for i in (0, -1))
@@ -248,9 +249,9 @@ class FreeDevice:
             nearest = farthest = incidence
         # A flip at an incidence of its own does not constrain the design's.
         rolls = (
-            requirement.reserves[each.name].roll
-            for each in requirement.maneuvers
-            if each.incidence is None and each.name in requirement.reserves
+            requirement.reserves[maneuver.name].roll
+            for maneuver in requirement.maneuvers
+            if maneuver.incidence is None and maneuver.name in requirement.reserves
         )
         rate_change, roll = requirement.rate_change or 0.0, max(rolls, default=0.0)
         top_speed = float(self.selected.line.reserved().top_speed)

@@ -208,7 +208,7 @@ def reference(
     shares = tuple(dict.fromkeys((*gentle, PLANNED / kept, PLANNED, 1.0)))
     takeover = takeover_factor(gyrostat.axes) if one_stops else 1.0
     for share, divisor in [
-        (fraction, each) for each in dict.fromkeys((takeover, 1.0)) for fraction in shares
+        (fraction, factor) for factor in dict.fromkeys((takeover, 1.0)) for fraction in shares
     ]:
         usable = line.divided(divisor).reserved(share)
         planned = least_power_turn(boundary, gyrostat, usable, one_stops=divisor > 1.0)
@@ -273,7 +273,7 @@ def _unplanned(
                 else (tilt_fraction, high)
             )
         tilt_fraction, tilt = low, abs(float(boundary.angle))
-        full, reduced = (format_quantity(each, "deg") for each in (tilt, tilt_fraction * tilt))
+        full, reduced = (format_quantity(angle, "deg") for angle in (tilt, tilt_fraction * tilt))
         text = (
             f"from {reduced} they can"
             if tilt_fraction > 0.0
@@ -305,9 +305,9 @@ def _with_balancing(
     )
     if planned is not None:
         rows = {
-            each.name: np.concatenate([getattr(planned, each.name), getattr(held, each.name)])
-            for each in fields(Trajectory)
-            if each.name not in {"note", "step_torque", "gains"}
+            field.name: np.concatenate([getattr(planned, field.name), getattr(held, field.name)])
+            for field in fields(Trajectory)
+            if field.name not in {"note", "step_torque", "gains"}
         }
         held = Trajectory(**rows, note="")
     gains = tracking_gains(gyrostat, line, held)

@@ -155,8 +155,10 @@ def _solve(
         turn, guess = turns[0], guesses[0]
         with _PROGRAM_LOCK:
             numbers = numbers_of(turn, Plant.of(turn.gyrostat), line, guess)
-            values = {name: ca.sparsify(ca.evalf(each)) for name, each in numbers.items()}
-            patterns = ((name, tuple(each.sparsity().compress())) for name, each in values.items())
+            values = {name: ca.sparsify(ca.evalf(number)) for name, number in numbers.items()}
+            patterns = (
+                (name, tuple(value.sparsity().compress())) for name, value in values.items()
+            )
             structure = ProgramStructure.of(turn, line, guess)
             program, parameters, variables = _plan_program(structure, tuple(patterns))
             for name, parameter in parameters.items():
@@ -245,10 +247,10 @@ def _solved(
         motions=tuple(
             Motion(
                 guess.lengths,
-                np.array(value(each.scaled_states), ndmin=2),
-                np.array(value(each.scaled_torques), ndmin=2),
+                np.array(value(variables.scaled_states), ndmin=2),
+                np.array(value(variables.scaled_torques), ndmin=2),
             )
-            for guess, each in zip(guesses, all_variables, strict=True)
+            for guess, variables in zip(guesses, all_variables, strict=True)
         ),
         dimensions=np.array(value(dimension), ndmin=1),
         solved=bool(stats["success"]),

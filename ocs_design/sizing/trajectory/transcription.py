@@ -172,8 +172,8 @@ def numbers_of(turn: Phase, plant: Plant, line: DriveLine, guess: Motion) -> dic
         for wheel in range(wheels):
             numbers[f"shared {wheel}"] = shared_by_others(gyrostat.axes, wheel)
     return {
-        name: ca.MX(ca.DM(each)) if not isinstance(each, ca.MX) else each
-        for name, each in numbers.items()
+        name: ca.MX(ca.DM(number)) if not isinstance(number, ca.MX) else number
+        for name, number in numbers.items()
     }
 
 
