@@ -35,10 +35,10 @@ def test_rectangle(width, height, corner):
     x, y = corner
     shape = Rectangle(x, x + width, y, y + height)
     centre = np.array([x + width / 2.0, y + height / 2.0])
-    own = np.diag([width**2, height**2]) / 12.0
+    own_moments = np.diag([width**2, height**2]) / 12.0
     area = width * height
     for moments in (as_area_moments(shape.moments), area_moments(shape.outline())):
-        assert_same(moments, (area, area * centre, area * (own + np.outer(centre, centre))))
+        assert_same(moments, (area, area * centre, area * (own_moments + np.outer(centre, centre))))
 
 
 def test_half_disc():

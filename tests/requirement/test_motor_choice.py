@@ -84,9 +84,9 @@ def test_gears_must_be_requested_or_the_users_own(tmp_path):
     assert choice_of().gears == (DIRECT,)
     catalogue = (DIRECT, *stages(gears().values()))
     assert choice_of(gear="auto").gears == catalogue
-    own = tmp_path / "own.toml"
-    own.write_text(OWN_GEAR)
-    mine = choice_of(gears=str(own)).gears
+    file = tmp_path / "own.toml"
+    file.write_text(OWN_GEAR)
+    mine = choice_of(gears=str(file)).gears
     assert [gear.name for gear in mine if gear not in catalogue] == ["mine 2:1"]
 
 
@@ -154,18 +154,18 @@ def test_a_gear_is_named_with_or_without_its_ratio(sheet):
 
 
 def test_a_belt_with_one_pulley_is_refused(tmp_path):
-    own = tmp_path / "own.toml"
+    file = tmp_path / "own.toml"
     row = {"pitch_m": 0.002, "width_m": 0.006, "belt_mass_kg_per_m": 0.01, "mass_kg": 0.02}
     row |= {"working_tension_n": 40, "belt_speed_max_m_s": 40, "pulley_density_kg_m3": 2700}
     figures = "\n".join(f"{column} = {figure}" for column, figure in row.items())
     named = 'name = "mine"\nmaker = "me"\nsource = "bench"\nkind = "belt"\nefficiency = 0.95'
     for teeth, offered in (("[20]", 0), ("[20, 40]", 2)):
-        own.write_text(f"[[gear]]\n{named}\nteeth = {teeth}\n{figures}\n")
+        file.write_text(f"[[gear]]\n{named}\nteeth = {teeth}\n{figures}\n")
         if offered:
-            assert len(choice_of(gears=str(own), gear="mine").gears) == offered
+            assert len(choice_of(gears=str(file), gear="mine").gears) == offered
         else:
             with pytest.raises(SpecificationError, match="lacks teeth of a second pulley"):
-                choice_of(gears=str(own), gear="mine")
+                choice_of(gears=str(file), gear="mine")
 
 
 @pytest.mark.parametrize(
@@ -207,9 +207,9 @@ def test_own_motors_replace_or_extend_the_catalogue(own):
     ],
 )
 def test_a_file_without_a_buildable_motor_is_refused_under_its_key(tmp_path, rows, fault):
-    own = tmp_path / "own.toml"
-    own.write_text(rows)
-    (problem,) = problems_of(parse_specification(f"motor.motors = '{own}'", "x"), LIGHT, 1.0)
+    file = tmp_path / "own.toml"
+    file.write_text(rows)
+    (problem,) = problems_of(parse_specification(f"motor.motors = '{file}'", "x"), LIGHT, 1.0)
     assert problem.startswith("motor.motors: ")
     assert fault in problem
 
@@ -268,15 +268,15 @@ def test_mass_of_controllers_is_specified_or_estimated():
 
 def test_warnings_about_a_motor_are_given_with_those_about_the_robot(tmp_path):
     """They come before any sizing, and are errors with --strict."""
-    own = tmp_path / "own.toml"
-    own.write_text(
+    file = tmp_path / "own.toml"
+    file.write_text(
         '[[motor]]\nname = "Own"\nmaker = "me"\nsource = "bench"\nkv_rpm_per_v = 450000\n'
     )
     by_hand = RobotSection(mass=2.5, inertia=(0.032, 0.055, 0.07, 0.0, 0.0, 0.0))
-    specification = Specification(robot=by_hand, motor=MotorSection(motors=str(own)))
+    specification = Specification(robot=by_hand, motor=MotorSection(motors=str(file)))
     (warning,) = read_specified_robot(specification).warnings
     assert "Own: kv_rpm_per_v is 450000 rpm/V" in warning
     with pytest.raises(RobotError, match=r"--strict: .* did you mean 450 rpm/V"):
         read_specified_robot(specification, strict=True)
-    without_motor = replace(specification, motor=MotorSection(motors=str(own), name="none"))
+    without_motor = replace(specification, motor=MotorSection(motors=str(file), name="none"))
     assert read_specified_robot(without_motor).warnings == ()

@@ -593,6 +593,6 @@ def test_the_flat_spots_that_a_mast_needs_are_reported(column):
     pads, points = mounting.pads, mounting_open_points(mounting)
     assert any(f"for a mast's {pads.screw} screws" in point.cure for point in points)
     wide = column(pads.aside + pads.diameter + 2e-3)
-    held = stand_on_trunk(DEVICE, wide, specified=False)
-    assert held.plate.mast is not None
-    assert mounting_of(wide, held, (), wide.mass_properties).pads is None
+    masted = stand_on_trunk(DEVICE, wide, specified=False)
+    assert masted.plate.mast is not None
+    assert mounting_of(wide, masted, (), wide.mass_properties).pads is None

@@ -146,6 +146,6 @@ def test_chamfers_and_holes_reduce_the_smallest_rim_inertia():
     )
     ring = Rims(bore + wall, bore, height, limits.density, cuts.chamfer).body[1]
     disc = cylinder(bore, web, limits.density)[1]
-    drilled, own, _ = cylinder(cuts.hole_radius, cuts.hole_depth, limits.density)
-    holes = 2 * cuts.holes * (own + drilled * (bore + wall / 2.0) ** 2)
+    hole_mass, hole_inertia, _ = cylinder(cuts.hole_radius, cuts.hole_depth, limits.density)
+    holes = 2 * cuts.holes * (hole_inertia + hole_mass * (bore + wall / 2.0) ** 2)
     assert float(smallest_rim_inertia(limits)) == pytest.approx(ring + disc - holes, rel=1e-12)

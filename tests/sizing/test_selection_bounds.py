@@ -90,14 +90,16 @@ def test_no_larger_or_heavier_module_has_less_inertia_than_the_bound(layout):
     rng = np.random.default_rng(1)
     wheel, motor, depth, foot, size = random_modules(rng, 500)
     largest = Size(*(2.0 * values for values in size))
-    own = np.minimum(wheel.xx + wheel.zz, wheel.yy + wheel.zz)
+    wheel_inertia = np.minimum(wheel.xx + wheel.zz, wheel.yy + wheel.zz)
     heaviest, place = 2.0 * (wheel.mass + motor.mass + foot.mass), AROUND[layout]
     zero = np.zeros_like(depth)
-    least = ModuleBounds(wheel.mass, own, motor.mass, depth, zero, size, largest, heaviest)
+    bounds = ModuleBounds(
+        wheel.mass, wheel_inertia, motor.mass, depth, zero, size, largest, heaviest
+    )
     grown = Size(*(values * rng.uniform(1.0, 2.0, 500) for values in size))
     factors, shares = rng.uniform(1.0, 2.0, 500), rng.uniform(0.3, 1.0, 500)
     module, _ = module_of(scaled(wheel, factors), motor, shares * depth, foot, grown)
-    bound = least_composite_inertia(ROBOT, place, least, layout)
+    bound = least_composite_inertia(ROBOT, place, bounds, layout)
     angles = rng.uniform(0.0, np.pi / 2.0, (500, 1))
     if layout.angle is not None:
         angles[:] = layout.angle

@@ -144,8 +144,8 @@ def test_a_push_requires_more_than_its_momentum():
     assert smallest.solution.solved
     roll, pitch, _ = np.array(PUSH.torque) * PUSH.duration
     shares = np.sin(np.radians(35.0)), np.cos(np.radians(35.0))
-    least = (roll / shares[0] + pitch / shares[1]) / 2.0 / EC45_LINE.no_load_speed
-    assert smallest.gyrostat.spin_inertia > least
+    momentum_bound = (roll / shares[0] + pitch / shares[1]) / 2.0 / EC45_LINE.no_load_speed
+    assert smallest.gyrostat.spin_inertia > momentum_bound
     assert end_rate(smallest.gyrostat, smallest.trajectory) < 1e-6
 
 
