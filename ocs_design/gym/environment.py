@@ -116,10 +116,15 @@ class OcsFlight(gymnasium.Env[Observation, Observation]):
             options: `maneuver`, a name; `sample`, as in `ocs-design validate --sample`.
 
         Raises:
-            UsageError: an option has a wrong value.
+            UsageError: an option is unknown, or has a wrong value.
         """
         super().reset(seed=seed)
         given = options or {}
+        if unknown := sorted(given.keys() - {"maneuver", "sample"}):
+            raise UsageError(
+                f"reset has no option {unknown[0]!r}",
+                hint="it has 'maneuver' and 'sample'",
+            )
         chosen = self._names[int(self.np_random.integers(len(self._names)))]
         sample = int(self.np_random.integers(SAMPLES))
         name, sample = given.get("maneuver", chosen), given.get("sample", sample)

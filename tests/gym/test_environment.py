@@ -131,6 +131,12 @@ def test_unknown_maneuvers_and_missing_motors_are_errors(flight, folder, tmp_pat
         OcsFlight(tmp_path)
 
 
+def test_an_unknown_option_is_an_error(flight):
+    """It was ignored, and any maneuver flown in place of the one that was meant."""
+    with pytest.raises(UsageError, match="no option 'manuever'"):
+        flight.reset(options={"manuever": "drop"})
+
+
 @pytest.mark.parametrize("action", [[0.0], [0.0, np.nan]])
 def test_invalid_actions_are_errors(flight, action):
     flight.reset(seed=0)
