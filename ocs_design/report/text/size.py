@@ -168,10 +168,11 @@ def print_summary(console: Console, design: OcsDesign, runs: Sequence[Run], fold
     robot = design.robot
     rows = [("robot", f"{robot.name}, {robot.mass:.4g} kg, posture {robot.posture_name}")]
     rows += first_facts(design)
-    driving = limits.driving_maneuver_text(design)
-    causes = [listed(limits.active_limit_names(design)), f"driven by {driving}" if driving else ""]
+    active, driving = limits.active_limit_names(design), limits.driving_maneuver_text(design)
+    causes = [f"{listed(active)} active" if active else ""]
+    causes.append(f"mass driven by {driving}" if driving else "")
     if any(causes):
-        rows.append(("set by", "; ".join(filter(None, causes))))
+        rows.append(("limits", "; ".join(filter(None, causes))))
     for index, (share, names) in enumerate(limits.utilizations(design)[:MOST_MARGINS]):
         rows.append(("" if index else "used", f"{share} {names}"))
     if limits.pause_remark(design):
