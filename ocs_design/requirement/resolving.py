@@ -285,7 +285,7 @@ def _assumptions(
             yield (
                 f"Motor: {choice.motors[0].name}, the only one {which}."
                 if len(choice.motors) == 1
-                else f"Motor: that of the lightest device, of all {which}."
+                else f"Motor: chosen for the lightest device, of all {which}."
             )
         if motor.gear in {None, AUTO}:
             stages = len(choice.gears) - 1

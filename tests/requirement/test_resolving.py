@@ -50,7 +50,7 @@ def test_all_defaults_are_reported(solo12):
         resolved,
         "the paper's three",
         "Supply: 24 V, at most 1 kW (400 W per kg of robot).",
-        "Motor: that of the lightest device, of all that can be built with.",
+        "Motor: chosen for the lightest device, of all that can be built with.",
         "Gear: none, because gear mountings are not designed.",
         "Incidence: alpha* = atan(Ixx/Iyy) of robot and device (equal-rate).",
         "Material: one of 5 steels.",
