@@ -138,9 +138,8 @@ def test_a_changed_robot_is_refused_unless_given_by_an_option(solo12):
     refused(3, "not the file that the device was sized for", *arguments, "--strict")
     result = run("export", *arguments, "-o", "again", "--json")
     (warning,) = result.document["warnings"]
-    assert warning.startswith(
-        "solo12.urdf: not the file that the device was sized for; mass 2.5 kg"
-    )
+    text = "not the file that the device was sized for; its mass is 2.5 kg, at sizing it was 2.5 kg"
+    assert warning == f"solo12.urdf: {text}"
     assert "<!-- new -->" in Path("again/robot/solo12_ocs.urdf").read_text()
 
 
