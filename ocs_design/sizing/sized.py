@@ -153,7 +153,7 @@ def _shadow_prices(problem: SelectionProblem, chosen: Candidate) -> dict[str, fl
 
 @dataclass(frozen=True, eq=False)
 class DriveChoice:
-    """How motor, gear and material were chosen.
+    """Choice of motor, gear and material, with the problem that it solves.
 
     Attributes:
         problem: candidates and requirement. selection: its solution.

@@ -36,7 +36,7 @@ from ocs_design.sizing.place import Place, module_size
 
 @dataclass(frozen=True, eq=False)
 class SelectionProblem:
-    """Find the lightest device that meets the whole requirement.
+    """Problem of finding the lightest device that meets the whole requirement.
 
     Attributes:
         robot: without the modules, with the plate that they stand on, in B.
