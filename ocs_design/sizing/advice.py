@@ -123,10 +123,6 @@ class Field:
             drives = drives_of(problem, np.column_stack([drives.motor, drives.gear]))
         return Field.of(problem, drives)
 
-    def value_of(self, limit: Limit) -> float:
-        """Present value of one of the problem's limits [SI]."""
-        return limits_of(self.problem)[limit]
-
     def with_limit(self, limit: Limit, value: float) -> "Field":
         """Field of these drives with one of the problem's limits changed [SI]."""
         return self.changed(with_limit(self.problem, limit, value))
@@ -278,12 +274,11 @@ def single_changes(field: Field, progress: Progress = ignore_progress) -> dict[L
     change that only an unlikely drive could use may be missed (`Field.possible`).
     """
     return smallest_changes(
-        field,
         limits_of(field.problem),
-        lambda changed: changed.possible,
+        lambda limit, value: field.with_limit(limit, value).possible,
         precision=ADVICE_PRECISION,
         most=lambda limit: _LARGEST_FACTORS.get(limit.name, LARGEST_FACTOR),
-        conceivable=lambda changed: changed.conceivable,
+        conceivable=lambda limit, value: field.with_limit(limit, value).conceivable,
         progress=progress,
     )
 

@@ -5,10 +5,10 @@ limit at another value and, where that takes long, whether it is conceivable at 
 answers quickly.
 """
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import isfinite, pi, sqrt
-from typing import TYPE_CHECKING, Any, Protocol, Self, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
 from ocs_design.common.errors import Constraint
 from ocs_design.common.units import round_outwards
@@ -96,24 +96,9 @@ LIMITS: Mapping[str, Limit] = {
 LARGEST_CHANGE = 1e3
 """A limit that must be multiplied or divided by more than this to help is not advised."""
 
-PRECISION = 1e-6
-"""Relative precision of the smallest change that helps."""
-
 _LARGEST_STEP = 1.25
 """Largest ratio of two successive changes tried."""
 
-
-class Limited(Protocol):
-    """A problem whose limits can be changed one at a time."""
-
-    def value_of(self, limit: Limit) -> float:
-        """Present value of one of its limits [SI]."""
-
-    def with_limit(self, limit: Limit, value: float) -> Self:
-        """The problem with one of its limits changed [SI]."""
-
-
-Problem = TypeVar("Problem", bound=Limited)
 
 Progress: TypeAlias = Callable[[float], None]
 """Called with the fraction done."""
@@ -139,20 +124,19 @@ def narrowed(
 
 
 def smallest_changes(
-    problem: Problem,
-    limits: Collection[Limit],
-    possible: Callable[[Problem], bool],
+    present: Mapping[Limit, float],
+    possible: Callable[[Limit, float], bool],
     *,
-    precision: float = PRECISION,
+    precision: float,
     most: Callable[[Limit], float] = lambda _: LARGEST_CHANGE,
-    conceivable: Callable[[Problem], bool] | None = None,
+    conceivable: Callable[[Limit, float], bool] | None = None,
     progress: Progress = ignore_progress,
 ) -> dict[Limit, float]:
     """Values of single limits that just make a problem feasible, the gentlest change first [SI].
 
     Args:
-        problem: as it is, infeasible. limits: to change.
-        possible: whether a problem with one limit changed is feasible.
+        present: values of the limits to change [SI], with which the problem is infeasible.
+        possible: whether it is feasible with one limit at another value.
         precision: relative precision of the values.
         most: largest factor by which a limit is changed.
         conceivable: where `possible` takes long, whether a bound leaves any design: true from some
@@ -161,16 +145,16 @@ def smallest_changes(
         progress: called with the fraction done.
     """
     factors: dict[Limit, float | None] = {}
-    for index, limit in enumerate(limits):
-        present, start, largest = problem.value_of(limit), 1.0, most(limit)
+    for index, (limit, value) in enumerate(present.items()):
+        start, largest = 1.0, most(limit)
 
         def at(
-            holds: Callable[[Problem], bool], limit: Limit = limit, present: float = present
+            holds: Callable[[Limit, float], bool], limit: Limit = limit, value: float = value
         ) -> Callable[[float], bool]:
             """A test of the problem, as a function of the factor by which the limit is loosened."""
-            return lambda factor: holds(problem.with_limit(limit, limit.loosened(present, factor)))
+            return lambda factor: holds(limit, limit.loosened(value, factor))
 
-        if isfinite(present) and present > 0.0:
+        if isfinite(value) and value > 0.0:
             if conceivable is not None:
                 # A bound's edge, which is quick to find, is where to start.
                 feasible_at_all = at(possible)(largest)
@@ -180,10 +164,10 @@ def smallest_changes(
                     else largest
                 )
             factors[limit] = smallest_factor(at(possible), start, largest, precision)
-        progress((index + 1) / len(limits))
+        progress((index + 1) / len(present))
     known = {limit: factor for limit, factor in factors.items() if factor is not None}
     ordered = sorted(known.items(), key=lambda item: item[1])
-    return {limit: limit.loosened(problem.value_of(limit), factor) for limit, factor in ordered}
+    return {limit: limit.loosened(present[limit], factor) for limit, factor in ordered}
 
 
 def smallest_factor(

@@ -16,8 +16,7 @@ from ocs_design.requirement.requirement import Requirement
 from ocs_design.requirement.turns import Drop
 from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.bound.device_problem import DeviceProblem, find_fixed_point
-from ocs_design.sizing.bound.device_sizing import size_device
-from ocs_design.sizing.bound.infeasible import DEVICE_PRECISION
+from ocs_design.sizing.bound.device_sizing import PRECISION, size_device
 from ocs_design.sizing.limits import RIM_LIMITS, TOP_SPEED
 
 SOLO12 = MassProperties(
@@ -158,7 +157,7 @@ def test_relaxations_of_an_infeasible_problem():
     by_name = {limit.name: limit for limit in (*RIM_LIMITS, TOP_SPEED)}
     for name, value in error.relaxations.items():
         size_device(problem.with_limit(by_name[name], value))
-        tighter = by_name[name].loosened(value, 1.0 / (1.0 + 3.0 * DEVICE_PRECISION))
+        tighter = by_name[name].loosened(value, 1.0 / (1.0 + 3.0 * PRECISION))
         assert find_fixed_point(problem.with_limit(by_name[name], tighter)).shape is None
 
 

@@ -8,10 +8,15 @@ from hypothesis import HealthCheck, assume, given, settings
 from rims import PAPER_STEEL, STEEL, envelope_with, paper_problem, rim_problems
 
 from ocs_design.common.errors import Infeasible
-from ocs_design.sizing.bound.infeasible import (
+from ocs_design.device.layout import Criterion
+from ocs_design.requirement.requirement import Requirement
+from ocs_design.robot.mass import MassProperties
+from ocs_design.sizing.bound.device_problem import DeviceProblem
+from ocs_design.sizing.bound.device_sizing import (
     conflicting_limits,
     is_feasible,
     largest_spin_inertia,
+    size_device,
 )
 from ocs_design.sizing.bound.rim_problem import RimProblem, lightest_rim
 from ocs_design.sizing.bound.rim_program import solve_rim
@@ -22,8 +27,15 @@ few_examples = settings(max_examples=40, deadline=None, suppress_health_check=li
 
 
 def failure(problem):
+    """The error for a device whose wheels' spin inertia is specified."""
+    requirement = Requirement((), None, problem.wheel_speed, problem.spin_inertia, 0.25)
+    robot = MassProperties(2.5, np.zeros(3), 0.05 * np.eye(3))
+    device = DeviceProblem(
+        robot, requirement, problem.envelope, problem.material,
+        lambda *_: np.array([[0.0, 0.07, 0.1], [0.0, -0.07, 0.1]]), 0.7, Criterion.EQUAL_RATE,
+    )  # fmt: skip
     with pytest.raises(Infeasible) as caught:
-        solve_rim(problem)
+        size_device(device)
     return caught.value
 
 

@@ -1,43 +1,23 @@
 """The search for the smallest change of a limit, and rounded figures."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass
-
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from ocs_design.common.units import round_outwards
 from ocs_design.requirement.device_sections import Envelope
-from ocs_design.sizing.limits import (
-    PRECISION,
-    RIM_LIMITS,
-    TOP_SPEED,
-    Limit,
-    smallest_changes,
-)
+from ocs_design.sizing.limits import RIM_LIMITS, TOP_SPEED, smallest_changes
 
 BY_NAME = {limit.name: limit for limit in (*RIM_LIMITS, TOP_SPEED)}
 
 
-@dataclass(frozen=True)
-class Changed:
-    """A problem reduced to the values of its limits, and the limit that was changed."""
-
-    values: Mapping
-    limit: Limit | None = None
-
-    def value_of(self, limit):
-        return self.values[limit]
-
-    def with_limit(self, limit, value):
-        return Changed({**self.values, limit: value}, limit)
+PRECISION = 1e-6
 
 
 def smallest_change(limit, now, mends):
     """Smallest change of one limit; None if no change is enough."""
-    problem = Changed({limit: now})
-    return smallest_changes(problem, [limit], lambda each: mends(each.values[limit])).get(limit)
+    changes = smallest_changes({limit: now}, lambda _, value: mends(value), precision=PRECISION)
+    return changes.get(limit)
 
 
 @given(st.floats(1e-3, 1e3), st.floats(1.0001, 900.0))
@@ -65,11 +45,10 @@ def test_the_nearest_edge_of_a_window_is_found():
 def test_the_smallest_change_comes_first():
     edges = {BY_NAME["r_max"]: 3.0, BY_NAME["wall_min"]: 0.5, BY_NAME["h_max"]: 1e6}
 
-    def feasible(problem):
-        value, edge = problem.values[problem.limit], edges[problem.limit]
-        return value >= edge if problem.limit.loosens_upwards else value <= edge
+    def feasible(limit, value):
+        return value >= edges[limit] if limit.loosens_upwards else value <= edges[limit]
 
-    changes = smallest_changes(Changed(dict.fromkeys(edges, 1.0)), edges, feasible)
+    changes = smallest_changes(dict.fromkeys(edges, 1.0), feasible, precision=PRECISION)
     assert [limit.name for limit in changes] == ["wall_min", "r_max"]
 
 

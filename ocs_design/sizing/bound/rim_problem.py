@@ -118,10 +118,6 @@ class RimProblem:
     material: Material
     wheel_speed: float
 
-    def value_of(self, limit: Limit) -> float:
-        """Present value of one of its limits [SI]."""
-        return limit.value(self.envelope)
-
     def with_limit(self, limit: Limit, value: float) -> "RimProblem":
         """The problem with one of its limits changed [SI]."""
         return replace(self, envelope=limit.replaced(self.envelope, value))

@@ -4,30 +4,26 @@ Variables are a = (R / s)^2 and b = (r / s)^2 with a scale s, so that both are o
 and limits that may be far away are divided by their own size; otherwise the solver loses digits. By
 Lagrange, the sensitivity of the optimal mass to a limit is that of the constraint
 g(a, b; limit) <= 0 times its multiplier. All limits are convex except wall and least height, which
-are replaced by
-tangents at the last solution (the convex-concave procedure): where the solutions converge, the
-multipliers of the last convex program are those of the rim itself (Yuille and Rangarajan, Neural
-Computation 15, 2003; Lipp and Boyd, Optim. Eng. 17, 2016).
+are replaced by tangents at a given rim. At the optimum the program returns that rim, and its
+multipliers are those of the rim itself (Lipp and Boyd, Optim. Eng. 17, 2016).
 """
 
 import warnings
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib import import_module
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import MissingToolError, extra_command
 from ocs_design.parts.rim import cylinder_spin_inertia, cylinder_transverse_inertia, hoop_weights
-from ocs_design.sizing.bound.infeasible import infeasible_rim
 from ocs_design.sizing.bound.rim_problem import RimProblem, lightest_rim
 
 if TYPE_CHECKING:
     from types import ModuleType
 
-    from cvxpy import Constraint, Expression, Problem, Variable
+    from cvxpy import Constraint, Problem, Variable
 
 
 class RimConstraint(NamedTuple):
@@ -35,172 +31,66 @@ class RimConstraint(NamedTuple):
 
     Attributes:
         convex: the CVXPY constraint.
-        derivative: of g with respect to the limit where it is active, at (a, b) [1 / SI unit of the
-            limit].
+        derivative: of g with respect to the limit where it is active, at a given rim [1 / SI unit
+            of the limit].
     """
 
     convex: "Constraint"
-    derivative: Callable[[float, float], float]
+    derivative: float
 
 
-class RimConstraints:
-    """All limits of one rim problem.
+def rim_constraints(
+    problem: RimProblem, a: "Variable", b: "Variable", at: tuple[float, float], scale: float
+) -> dict[str, RimConstraint]:
+    """All limits of a rim that are set, by the specification's names.
 
-    Attributes:
-        a, b: CVXPY variables.
-        by_name: the limits that are set, by the specification's names; the derivative of the hoop
-            stress is with respect to the allowed stress [1 / Pa].
+    The derivative of the hoop stress is with respect to the allowed stress [1 / Pa].
+
+    Args:
+        problem: of the rim. a, b: variables of the program.
+        at: values of a and b of the rim at which tangents are taken. scale: s [m].
     """
-
-    def __init__(self, problem: RimProblem, scale: float) -> None:
-        # Importing CVXPY takes a second, so it is imported only to solve.
-        cvxpy = import_module("cvxpy")
-        self.a: Variable
-        self.b: Variable
-        self.a, self.b = cvxpy.Variable(), cvxpy.Variable()
-        self._moves: list[Callable[[], None]] = []
-        room, inertia, density = problem.envelope, problem.spin_inertia, problem.material.density
-        radius, bore = room.outer_radius_max / scale, room.inner_radius_min / scale
-        wall, per_height = room.wall_min / scale, 2.0 * inertia / (np.pi * density * scale**4)
-        # Differences a^2 - b^2 of the tallest rim and of the flattest one.
-        tall = per_height / room.height_max
-        flat = per_height / room.height_min if room.height_min > 0.0 else np.inf
-        # The height limit is a second-order cone. The geometric mean of a - b and a + b would
-        # express the same cone, but costs Clarabel four digits of the multipliers.
-        norm = cvxpy.norm(cvxpy.hstack([self.b, np.sqrt(tall)]))
-        self.by_name = {
-            "r_max": RimConstraint(
-                self.a / radius**2 <= 1.0, lambda _a, _b: -2.0 / room.outer_radius_max
-            ),
-            "r_min": RimConstraint(self.b >= bore**2, lambda _a, _b: 2.0 * bore / scale),
-            "h_max": RimConstraint(
-                norm <= self.a,
-                lambda _a, b: -tall / (2.0 * room.height_max * np.hypot(b, np.sqrt(tall))),
-            ),
-        }
-        if room.wall_min > 0.0:
-
-            def widest_bore(a: float) -> tuple[float, float]:
-                """(sqrt(a) - t)^2 and its slope."""
-                widest = np.sqrt(a) - wall
-                return widest**2, widest / np.sqrt(a)
-
-            self.by_name["wall_min"] = RimConstraint(
-                self.b <= self._tangent(self.a, widest_bore),
-                lambda a, _b: 2.0 * (np.sqrt(a) - wall) / scale,
-            )
-        if room.height_min > 0.0:
-
-            def widest_rim(b: float) -> tuple[float, float]:
-                """sqrt(Q + b^2) and its slope."""
-                widest = np.hypot(b, np.sqrt(flat))
-                return widest, b / widest
-
-            self.by_name["h_min"] = RimConstraint(
-                self.a <= self._tangent(self.b, widest_rim),
-                lambda _a, b: flat / (2.0 * room.height_min * widest_rim(b)[0]),
-            )
-        if np.isfinite(room.mass_max):
-            least = 2.0 * inertia / (room.mass_max * scale**2)
-            self.by_name["wheel_mass_max"] = RimConstraint(
-                (self.a + self.b) / least >= 1.0, lambda _a, _b: -1.0 / room.mass_max
-            )
-        if np.isfinite(problem.stretch_max):
-            stretch = problem.stretch_max / scale**2
-            outer, inner = hoop_weights(problem.material.poisson_ratio or 0.0)
-            self.by_name["hoop_stress"] = RimConstraint(
-                self.a * (outer / stretch) + self.b * (inner / stretch) <= 1.0,
-                lambda _a, _b: -1.0 / problem.hoop_stress_max,
-            )
-
-    def touch(self, a: float, b: float) -> None:
-        """Move the tangents to this point."""
-        self.a.value, self.b.value = a, b
-        for move in self._moves:
-            move()
-
-    def point(self) -> FloatArray:
-        """The values of a and b, shape (2,); clipped at zero against a solver's rounding."""
-        return np.maximum([np.asarray(x.value).item() for x in (self.a, self.b)], 0.0)
-
-    def _tangent(
-        self, x: "Variable", function: Callable[[float], tuple[float, float]]
-    ) -> "Expression":
-        """The tangent, at `touch`, of a convex function that returns its value and slope."""
-        cvxpy = import_module("cvxpy")
-        slope, offset = cvxpy.Parameter(), cvxpy.Parameter()
-
-        def move() -> None:
-            contact = np.asarray(x.value).item()
-            height, steepness = function(contact)
-            slope.value, offset.value = steepness, height - steepness * contact
-
-        self._moves.append(move)
-        line: Expression = slope * x + offset
-        return line
+    cvxpy = import_module("cvxpy")
+    room, inertia, density = problem.envelope, problem.spin_inertia, problem.material.density
+    radius, bore = room.outer_radius_max / scale, room.inner_radius_min / scale
+    wall, per_height = room.wall_min / scale, 2.0 * inertia / (np.pi * density * scale**4)
+    outer_there, bore_there = np.sqrt(at[0]), at[1]
+    # Difference a^2 - b^2 of the tallest rim.
+    tall = per_height / room.height_max
+    # The height limit is a second-order cone. The geometric mean of a - b and a + b would express
+    # the same cone, but costs Clarabel four digits of the multipliers.
+    norm = cvxpy.norm(cvxpy.hstack([b, np.sqrt(tall)]))
+    by_height = -tall / (2.0 * room.height_max * np.hypot(bore_there, np.sqrt(tall)))
+    limits = {
+        "r_max": RimConstraint(a / radius**2 <= 1.0, -2.0 / room.outer_radius_max),
+        "r_min": RimConstraint(b >= bore**2, 2.0 * bore / scale),
+        "h_max": RimConstraint(norm <= a, by_height),
+    }
+    if room.wall_min > 0.0:
+        # The tangent of (sqrt(a) - t)^2.
+        widest = outer_there - wall
+        tangent = widest**2 + widest / outer_there * (a - at[0])
+        limits["wall_min"] = RimConstraint(b <= tangent, 2.0 * widest / scale)
+    if room.height_min > 0.0:
+        # The tangent of sqrt(Q + b^2), with the difference Q of the flattest rim.
+        flat = per_height / room.height_min
+        largest = np.hypot(bore_there, np.sqrt(flat))
+        tangent = largest + bore_there / largest * (b - bore_there)
+        limits["h_min"] = RimConstraint(a <= tangent, flat / (2.0 * room.height_min * largest))
+    if np.isfinite(room.mass_max):
+        least = 2.0 * inertia / (room.mass_max * scale**2)
+        limits["wheel_mass_max"] = RimConstraint((a + b) / least >= 1.0, -1.0 / room.mass_max)
+    if np.isfinite(problem.stretch_max):
+        stretch = problem.stretch_max / scale**2
+        outer, inner = hoop_weights(problem.material.poisson_ratio or 0.0)
+        convex = a * (outer / stretch) + b * (inner / stretch) <= 1.0
+        limits["hoop_stress"] = RimConstraint(convex, -1.0 / problem.hoop_stress_max)
+    return limits
 
 
 _SOLVER_OPTIONS = {"tol_gap_abs": 1e-10, "tol_gap_rel": 1e-10, "tol_feas": 1e-10}
-_STEP_TOLERANCE = 1e-8
-_ITERATIONS_MAX = 50
 # A multiplier below this belongs to an inactive limit; those of active limits are of order one.
 _IDLE = 1e-6
-
-
-@dataclass(frozen=True)
-class RimOptimum:
-    """Solution of the convex program.
-
-    Attributes:
-        outer_radius: [m].
-        mass: [kg].
-        prices: change of the mass per change of each limit that is set [kg per SI unit].
-        gap: duality gap relative to the primal objective. status: CVXPY's.
-    """
-
-    outer_radius: float
-    mass: float
-    prices: Mapping[str, float]
-    gap: float
-    status: str
-
-
-def optimise_rim(problem: RimProblem, outer_radius: float, inner_radius: float) -> RimOptimum:
-    """Improve a feasible rim until the iteration converges.
-
-    Args:
-        problem: of the rim.
-        outer_radius, inner_radius: of any rim within the limits [m].
-
-    Raises:
-        MissingToolError: CVXPY is not installed.
-    """
-    cvxpy = load_solver()
-    scale = outer_radius
-    constraints = RimConstraints(problem, scale)
-    mass = cvxpy.inv_pos(constraints.a + constraints.b)
-    limits = [limit.convex for limit in constraints.by_name.values()]
-    program: Problem = cvxpy.Problem(cvxpy.Minimize(mass), limits)
-    point = np.array([1.0, (inner_radius / scale) ** 2])
-    step, iterations = np.inf, 0
-    while step > _STEP_TOLERANCE and iterations < _ITERATIONS_MAX:
-        last = point
-        constraints.touch(*last)
-        gap = _solved_gap(program)
-        point = constraints.point()
-        step, iterations = np.abs(point - last).max(), iterations + 1
-    mass_scale, prices = 2.0 * problem.spin_inertia / scale**2, {}
-    for name, limit in constraints.by_name.items():
-        multiplier = np.asarray(limit.convex.dual_value).item()
-        price = mass_scale * multiplier * float(limit.derivative(*point))
-        prices[name] = price if multiplier > _IDLE else 0.0
-    return RimOptimum(
-        outer_radius=float(scale * np.sqrt(point[0])),
-        mass=float(mass_scale / point.sum()),
-        prices=prices,
-        gap=gap,
-        status=str(program.status),
-    )
 
 
 def load_solver() -> "ModuleType":
@@ -271,36 +161,44 @@ class RimSolution:
 
 
 def solve_rim(problem: RimProblem) -> RimSolution:
-    """The lightest rim of the required spin inertia.
+    """The lightest rim of the required spin inertia, which some rim within the limits must have.
 
-    The closed form gives the numbers; the convex program, started there, must agree and gives the
+    The closed form gives the numbers; the convex program must return the same rim and gives the
     multipliers.
 
     Raises:
-        Infeasible: no rim has this spin inertia within the limits.
+        MissingToolError: CVXPY is not installed.
     """
-    shape = lightest_rim(problem.spin_inertia, problem.limits)
-    if not shape.mass > 0.0:
-        raise infeasible_rim(problem, solve_rim)
-    optimum = optimise_rim(problem, float(shape.outer_radius), float(shape.inner_radius))
-    residual = abs(optimum.mass / float(shape.mass) - 1.0)
+    cvxpy = load_solver()
+    inner, outer, height, mass = map(float, lightest_rim(problem.spin_inertia, problem.limits))
+    scale, at = outer, (1.0, (inner / outer) ** 2)
+    a, b = cvxpy.Variable(), cvxpy.Variable()
+    limits = rim_constraints(problem, a, b, at, scale)
+    constraints = [limit.convex for limit in limits.values()]
+    program: Problem = cvxpy.Problem(cvxpy.Minimize(cvxpy.inv_pos(a + b)), constraints)
+    gap = _solved_gap(program)
+    mass_scale, prices = 2.0 * problem.spin_inertia / scale**2, {}
+    residual = abs(mass_scale / np.sum([a.value, b.value]).item() / mass - 1.0)
     if residual > AGREEMENT:
         raise RuntimeError(
             f"closed form and convex program disagree by {residual:.1e} on {problem}"
         )
-    inner, outer, height = (float(value) for value in shape[:3])
+    for name, limit in limits.items():
+        multiplier = np.asarray(limit.convex.dual_value).item()
+        price = mass_scale * multiplier * float(limit.derivative)
+        prices[name] = price if multiplier > _IDLE else 0.0
     density = problem.material.density
     return RimSolution(
         inner_radius=inner,
         outer_radius=outer,
         height=height,
-        mass=float(shape.mass),
+        mass=mass,
         spin_inertia=cylinder_spin_inertia(inner, outer, height, density),
         transverse_inertia=cylinder_transverse_inertia(inner, outer, height, density),
-        binding=tuple(name for name, price in optimum.prices.items() if price != 0.0),
-        shadow_prices=optimum.prices,
-        gap=optimum.gap,
+        binding=tuple(name for name, price in prices.items() if price != 0.0),
+        shadow_prices=prices,
+        gap=gap,
         residual=residual,
-        status=optimum.status,
+        status=str(program.status),
         method=_METHOD,
     )

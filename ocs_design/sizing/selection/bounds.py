@@ -5,7 +5,7 @@ one on the mass, that gives one on the composite inertia, and that a better one 
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
 from typing import NamedTuple, Self
@@ -68,27 +68,6 @@ def incidence_intervals(incidence: float | None, count: int = INTERVALS) -> tupl
     return tuple(Interval(float(a), float(b)) for a, b in pairwise(edges))
 
 
-_IRRELEVANT_FIELDS = {
-    "robot",
-    "requirement",
-    "place",
-    "supply",
-    "incidence",
-    "wheel_speed_max",
-    "guard_wall",
-    "formed",
-}
-"""Fields of a problem on which its `RimFloor` does not depend; any other is part of the key."""
-
-
-@dataclass(frozen=True)
-class _CachedProblem:
-    """A problem that compares by its key."""
-
-    key: tuple[object, ...]
-    problem: SelectionProblem = field(compare=False)
-
-
 @dataclass(frozen=True, eq=False)
 class RimFloor:
     """Least mass of a rim with housing and foot as a function of spin inertia, for every material.
@@ -108,20 +87,7 @@ class RimFloor:
 
     @classmethod
     def of(cls, problem: SelectionProblem) -> "RimFloor":
-        """Rims that turn slowly, around the narrowest hub: no hoop stress adds to their mass.
-
-        They do not depend on robot, maneuvers, supply and angle: alternatives that differ only in
-        those share one result.
-        """
-        relevant = {each.name for each in fields(problem)} - _IRRELEVANT_FIELDS
-        values = [getattr(problem, name) for name in sorted(relevant)]
-        key = tuple(tuple(value) if isinstance(value, list) else value for value in values)
-        return cls._of(_CachedProblem(key, problem))
-
-    @classmethod
-    @lru_cache(maxsize=16)
-    def _of(cls, cached: "_CachedProblem") -> "RimFloor":
-        problem = cached.problem
+        """Rims that turn slowly, around the narrowest hub: no hoop stress adds to their mass."""
         materials, webs = len(problem.materials), len(problem.lightenings)
         # Every rim of every material, in every web.
         material = np.tile(np.repeat(np.arange(materials), _RIMS), webs)
