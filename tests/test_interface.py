@@ -179,7 +179,7 @@ def beside_solo12(tmp_path, monkeypatch):
     return tmp_path
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 @pytest.mark.filterwarnings("ignore")  # Warnings of Jupyter's own packages.
 def test_the_notebook_runs(beside_solo12, monkeypatch):
     """With few samples instead of a certificate, which takes minutes, and fewer points."""

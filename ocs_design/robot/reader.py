@@ -124,7 +124,10 @@ _NO_ROBOTS: Mapping[str, tuple[str, str]] = {
         (".zip", ".tar", ".tgz", ".7z", ".rar"),
         ("an archive", "unpack it and give the URDF or MJCF file in it"),
     ),
-    ".toml": ("a specification, not a robot", "give it with --spec, after the robot's file"),
+    ".toml": (
+        "a specification, not a robot",
+        "give it with --spec, alone if it has a section [robot], or after the robot's file",
+    ),
     ".json": (
         "not a robot",
         "a design.json is read by `ocs-design validate` and `ocs-design export`; "

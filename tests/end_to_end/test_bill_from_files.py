@@ -35,7 +35,7 @@ SIZED = {
 }
 
 
-@pytest.fixture(scope="module", params=slow_subset(2, SIZED))
+@pytest.fixture(scope="module", params=slow_subset(3, SIZED))
 def sized(request, tmp_path_factory, no_alternatives):
     """Output of `size`, its design, bill and catalogue row, and its parts as meshes [m]."""
     out = tmp_path_factory.mktemp("bill") / "out"

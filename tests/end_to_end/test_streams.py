@@ -99,7 +99,9 @@ ANSWERS = [
     ((*SIZE_BY_HAND, "--force"), "no flight was simulated"),
     (("export", "DESIGN", "-o", "again", "--force", "--formats", "snippets"), "snippets/"),
     (("validate", "DESIGN"), "level 1 of 1"),
-    pytest.param(("pareto", SOLO12, "--points", "2", *ONE_MOTOR), "mass", marks=pytest.mark.slow),
+    pytest.param(
+        ("pareto", SOLO12, "--points", "2", *ONE_MOTOR), "mass", marks=pytest.mark.exhaustive
+    ),
     # Its `--json` alone is in `test_examination.py`.
     pytest.param(("doctor",), "numpy", marks=pytest.mark.exhaustive),
 ]

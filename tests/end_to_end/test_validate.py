@@ -242,7 +242,9 @@ def test_wheels_without_a_motor_are_certified_for_the_reliability(folder):
 
 @pytest.mark.slow
 @pytest.mark.usefixtures("no_alternatives", "no_files")
-@pytest.mark.parametrize(("factor", "rounds"), [(1.0, 1), (1.05, 3)])
+@pytest.mark.parametrize(
+    ("factor", "rounds"), [(1.0, 1), pytest.param(1.05, 3, marks=pytest.mark.exhaustive)]
+)
 def test_an_uncertified_device_is_sized_again_with_new_samples(folder, monkeypatch, factor, rounds):
     """At most twice, and not at all where no reserve helps."""
     rounds_of = ocs_design.workflows.rounds

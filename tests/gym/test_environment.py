@@ -72,6 +72,7 @@ def test_with_the_control_law_an_episode_is_the_flight_of_its_sample(flight, out
     assert metrics.touchdown_time == expected.touchdown_time
 
 
+@pytest.mark.exhaustive
 def test_three_wheels_fly_as_in_the_campaign(tmp_path):
     (tmp_path / "design.json").write_bytes(to_json(design(layout="triad")))
     env = OcsFlight(tmp_path, maneuver="drop")

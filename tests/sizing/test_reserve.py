@@ -195,7 +195,7 @@ def test_the_reserve_grows_with_reliability_and_deviations():
     assert curve == sorted(curve)
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 def test_a_supply_that_limits_braking_requires_a_larger_reserve():
     """It takes the wheels' energy back in more than the 0.2 s after the plan, 10 % of the time."""
     flip = f"{LIGHTEST_MOTOR}{ONLY_FLIP}"
@@ -220,7 +220,7 @@ def test_quantities_with_larger_shares_save_more_mass_when_known():
     np.testing.assert_allclose(saved, sorted(saved, reverse=True), atol=2e-4)
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 def test_an_incidence_without_roll_authority_is_not_chosen_where_roll_is_disturbed():
     more = f'{LIGHTEST_MOTOR}{ONLY_FLIP}\n[ocs]\nalpha_criterion = "lightest"\n'
     nominal, reliable = design_of(more, 0.5), design_of(more)
@@ -330,7 +330,7 @@ def test_as_many_drops_land_level_as_predicted():
     )
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 def test_the_quantity_with_the_largest_share_rescues_the_most_flights_when_known():
     """Failed flights are repeated with one quantity at its mean and all others as sampled.
 

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 from commands import run, with_value
 from designed_devices import MOTOR, design_of, record_of
+from subsets import slow_subset
 
 from ocs_design.common.errors import OcsError
 from ocs_design.common.files import to_json
@@ -43,8 +44,7 @@ def written(kind):
     return to_json(record_of(task, sizing))
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("kind", slow_subset(2, KINDS))
 def test_a_design_agrees_with_itself(kind, tmp_path):
     (tmp_path / "design.json").write_bytes(written(kind))
     design, device = read_design_and_device(tmp_path)

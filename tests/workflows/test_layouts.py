@@ -143,7 +143,7 @@ duration = 2.0
 """
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 @pytest.mark.usefixtures("no_advice")
 def test_the_default_reliability_falls_to_90_percent_where_99_is_infeasible(tmp_path):
     """A pair that is infeasible for the roll of 99 % is sized for 90 %, unless 99 % is specified.
@@ -175,7 +175,7 @@ def test_the_lightest_is_the_same_without_the_plates_of_the_others():
     assert len(single_design.choice.selection.ranking) < len(ranked_design.choice.selection.ranking)
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 def test_layouts_of_one_robot_compared(monkeypatch):
     """For a flip a single wheel is the lightest, and it cannot roll the robot.
 
@@ -315,8 +315,8 @@ def test_a_triad_for_solo12_can_be_built(tmp_path):
     assert read_design_and_device(tmp_path / "a")[1].plate == plate
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("layout", ["triad", pytest.param("pyramid", marks=pytest.mark.exhaustive)])
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("layout", ["triad", "pyramid"])
 def test_a_surviving_device_lands_whichever_drive_stops(layout, tmp_path):
     """Every drive stops at every instant; the additional mass and all flights are recorded."""
     outcome = design_ocs(solo12_specification(**SURVIVES, ocs__layout=layout), out=tmp_path / "a")
