@@ -273,9 +273,16 @@ def pages(drilling: Drilling) -> Iterator[list[Item]]:
                     for x, y in [item.start]
                 ),
                 *marks,
-                # Hides what continues on another sheet and would run into the words.
-                Area(rectangle(0.0, bottom, WIDTH, HEIGHT), white=True),
-                *([Area(rectangle(0.0, 0.0, WIDTH, top), white=True)] if drilling.verdict else []),
+                # Hides what is beyond the frame: it continues on another sheet, or is cropped.
+                *(
+                    Area(rectangle(*margin), white=True)
+                    for margin in (
+                        (0.0, 0.0, WIDTH, top),
+                        (0.0, 0.0, left, HEIGHT),
+                        (right, 0.0, WIDTH, HEIGHT),
+                        (0.0, bottom, WIDTH, HEIGHT),
+                    )
+                ),
                 *outline(rectangle(left, top, right, bottom), THIN),
                 *_words(drilling, number, across * along),
             ]

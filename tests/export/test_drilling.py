@@ -3,6 +3,7 @@
 import re
 from collections import Counter
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -11,7 +12,16 @@ from wheels import paper_device
 
 from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.export.device_parts import foot_holes
-from ocs_design.export.drawing.sheet import HEIGHT, THIN, Area, Circle, Lettering, Line
+from ocs_design.export.drawing.sheet import (
+    HEIGHT,
+    THIN,
+    WIDTH,
+    Area,
+    Circle,
+    Lettering,
+    Line,
+    Polyline,
+)
 from ocs_design.export.drawing.title_block import device_hash
 from ocs_design.export.drawing.writers import pdf_of_pages
 from ocs_design.export.drilling import CHECK, SHEET, drilling_of, pages
@@ -156,6 +166,49 @@ def test_one_sheet_is_enough_where_it_has_room_for_the_holes():
     holes = [circle.center for circle in thick_circles(page)]
     shown = [(x, y) for x, y in holes if left <= x <= right and top <= y <= bottom]
     assert len(shown) == len(drilling.holes)
+
+
+def points_of(item):
+    """Points along a line or a circle, closer together than a line is wide."""
+    match item:
+        case Circle((x, y), radius):
+            angles = np.linspace(0.0, 2.0 * np.pi, 3600)
+            return np.column_stack([x + radius * np.cos(angles), y + radius * np.sin(angles)])
+        case Line(start, end):
+            return np.linspace(start, end, 1000)
+        case Polyline(corners):
+            return np.concatenate([np.linspace(*side, 1000) for side in pairwise(corners)])
+    return np.empty((0, 2))
+
+
+@pytest.mark.parametrize("apart", [1.0, 4.0], ids=["cropped", "on two sheets"])
+def test_nothing_of_the_trunk_shows_beyond_the_frame(apart):
+    """Feet once ran over the frame and off the paper, as on Unitree's Go2."""
+    modules = (
+        replace(module, position=module.position * [1.0, apart, 1.0])
+        for module in CAGED_DEVICE.modules
+    )
+    drilling = drilling_of(subject(replace(CAGED_DEVICE, modules=tuple(modules))))
+    wide = Circle((0.0, 0.0), 140.0, THIN)
+    left, top, right, bottom = SHEET
+    for page in pages(replace(drilling, around=(*drilling.around, wide))):
+        covers = [
+            (k, np.array(item.corners))
+            for k, item in enumerate(page)
+            if isinstance(item, Area) and item.white
+        ]
+        frame = min(
+            k for k, item in enumerate(page) if isinstance(item, Line) and item.start == (left, top)
+        )
+        for k, item in enumerate(page[:frame]):
+            x, y = points_of(item).T
+            hidden = (x >= left) & (x <= right) & (y >= top) & (y <= bottom)
+            for later, corners in covers:
+                (x0, y0), (x1, y1) = corners.min(axis=0), corners.max(axis=0)
+                if later > k:
+                    hidden |= (x >= x0) & (x <= x1) & (y >= y0) & (y <= y1)
+            paper = (x >= 0.0) & (x <= WIDTH) & (y >= 0.0) & (y <= HEIGHT)
+            assert (hidden | ~paper).all(), item
 
 
 def test_bare_wheels_and_tilted_modules_have_no_drilling_template():
