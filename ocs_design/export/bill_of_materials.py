@@ -24,6 +24,7 @@ from ocs_design.export.device_parts import BLOCK, pedestal_kinds, printed_parts,
 from ocs_design.export.electrics import battery, controllers, wiring_parts
 from ocs_design.export.formats import Notes, Subject
 from ocs_design.parts.carrier_plate import SHIM, block_part, mast_part, plate_part, sleeve_part
+from ocs_design.parts.guard import OUTSIDE_UNDER, RING_STEEL
 from ocs_design.parts.housing import LID_SCREWS, guard_ring
 from ocs_design.parts.joints import BOND_STRENGTH, EPOXY
 from ocs_design.parts.printed import (
@@ -122,12 +123,12 @@ def bill_rows(device: Device, margins: Sequence[Margin] = ()) -> Sequence[BillRo
             outside = inside + device.guard_wall
             size = f"ring {_mm(2.0 * inside)} inside x {_mm(device.guard_wall)} wall x {_mm(tall)}"
             how_made = (
-                "bent and welded or turned from tube, no wall thinner; outside "
-                f"{_mm(2.0 * outside)} (0/-0.2), with epoxy in a drum of "
+                "to guard_ring.pdf: turned from tube, or bent and welded, no wall thinner; outside "
+                f"{_mm(2.0 * outside)} (0/-{1e3 * OUTSIDE_UNDER:g}), with epoxy in a drum of "
                 f"{_mm(2.0 * foot.housing.inner_radius)}; holds a burst rim"
             )
-            steel = "mild steel (S235)"
-            rows.append(BillRow("guard ring", count, steel, size, mass, how_made, piece="guard"))
+            row = BillRow("guard ring", count, RING_STEEL, size, mass, how_made, piece="guard")
+            rows.append(row)
         # Screws of wheel and motor only if the catalogue has their threads.
         screwed = (ring.fastening for ring in mount.screwed)
         rows += [_screw_row(fastening, count) for fastening in (*screwed, LID_SCREWS)]

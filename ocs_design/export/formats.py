@@ -164,7 +164,7 @@ FORMATS = (
     ),
     Format(
         "drawing",
-        "technical drawings of wheel and plate, drilling template",
+        "technical drawings of wheel, plate and guard ring, drilling template",
         "cad",
         "drawing.wheel_sheet",
     ),

@@ -42,6 +42,15 @@ STEEL_STRENGTH, ALUMINIUM_STRENGTH = 360e6, 310e6
 """Tensile strengths [Pa]: least of S235 (EN 10025-2), typical of 6061-T6 (ASM)."""
 
 
+RING_STEEL = "mild steel (S235)"
+"""Material of guard rings."""
+
+OUTSIDE_UNDER, WALL_OVER, HEIGHT_UNDER = 0.2e-3, 0.1e-3, 0.3e-3
+"""Tolerances of a guard ring [m]: outside diameter below, wall above and height below nominal by
+that at most. It goes into its drum, does not lift the lid, and stays 1.5 mm off the rim even if it
+is bonded against one side."""
+
+
 @dataclass(frozen=True)
 class Fragment:
     """A third of a wheel that has burst.

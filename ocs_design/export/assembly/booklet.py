@@ -339,7 +339,7 @@ def _made(device: Device, name: str, bill: Sequence[BillRow]) -> tuple[str, str]
         return "printed, PETG", f"{'housing_' if of_housing else ''}{name}.stl"
     row = next(entry for entry in bill if entry.piece == name)
     if name == "guard":
-        return f"{row.material}, {row.stock}", "guard_ring.stl"
+        return f"{row.material}, {row.stock}", "guard_ring.pdf"
     cut = {"plate": "plate.pdf", "mast": "plate.pdf", "sleeves": "", BLOCK: "block.stl"}
     if name in cut:
         way = "milled" if name == BLOCK else "cut"

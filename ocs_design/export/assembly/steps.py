@@ -161,10 +161,10 @@ def module_steps(assembly: Assembly) -> Iterator[str]:
     yield from _wheel_steps(assembly)
     if "guard" in assembly.numbers:
         yield (
-            f"Bond the guard ring{assembly.number('guard')} into the drum{assembly.number('drum')} "
-            f"with epoxy ({EPOXY}, or one that is as strong at 80 °C), {1e3 * GUARD_GAP:g} mm all "
-            "around, down to its floor; roughen and degrease both. Its seam, if it has one, is "
-            "welded through."
+            f"Make the guard ring{assembly.number('guard')} to cad/guard_ring.pdf, for the bore of "
+            f"the printed drum{assembly.number('drum')}, and bond it in with epoxy ({EPOXY}, or "
+            f"one that is as strong at 80 °C), {1e3 * GUARD_GAP:g} mm all around, down to its "
+            "floor; roughen and degrease both."
         )
     yield from _drive_steps(assembly)
     if "lid" in assembly.numbers:

@@ -1,4 +1,4 @@
-"""Technical drawing of a design's wheel, as SVG and PDF."""
+"""Technical drawing of a design's wheel, as SVG and PDF; the files of all drawings."""
 
 import math
 from collections.abc import Iterator
@@ -10,11 +10,10 @@ from ocs_design.common.units import significant
 from ocs_design.device import joints
 from ocs_design.device.device import Device
 from ocs_design.device.joints import rim_fit
+from ocs_design.export.drawing.guard_sheet import guard_sheet
 from ocs_design.export.drawing.plate_sheet import plate_sheets
 from ocs_design.export.drawing.sheet import (
-    HEIGHT,
     THIN,
-    WIDTH,
     Item,
     Lettering,
     outline,
@@ -39,7 +38,7 @@ from ocs_design.export.drawing.wheel import (
     inside_corners,
     seat_limits,
 )
-from ocs_design.export.drawing.writers import pdf_of_pages, svg_text
+from ocs_design.export.drawing.writers import both_formats, pdf_of_pages
 from ocs_design.export.drilling import drilling_of, pages
 from ocs_design.parts.bell import GLUE_GAP
 from ocs_design.parts.joints import GRADE, SEAT_ROUGHNESS
@@ -58,10 +57,17 @@ RUN_OUT = 1e3 * joints.RUN_OUT
 
 
 def write(subject: "Subject", folder: Path) -> "Notes":
-    """Write `wheel.svg`, the same as `wheel.pdf`, and `plate.pdf` and `drilling.pdf` if any."""
+    """Write `wheel.svg`, the same as `wheel.pdf`, and the sheets of other parts.
+
+    These are, if the device has them, `guard_ring.svg` and `.pdf`, `plate.pdf` and `drilling.pdf`.
+    """
     drawing = wheel_drawing(subject.device, subject.name, subject.refused)
-    for suffix, content in draw_wheel(drawing).items():
-        (folder / f"wheel.{suffix}").write_bytes(content)
+    drawn = {"wheel": draw_wheel(drawing)}
+    if ring := guard_sheet(subject.device, subject.name, subject.refused):
+        drawn["guard_ring"] = both_formats(ring, f"Guard ring of {subject.name}")
+    for name, files in drawn.items():
+        for suffix, content in files.items():
+            (folder / f"{name}.{suffix}").write_bytes(content)
     if sheets := plate_sheets(subject.device, subject.name, subject.refused):
         title = f"Plate under the feet of {subject.name}"
         (folder / "plate.pdf").write_bytes(pdf_of_pages(sheets, title))
@@ -214,6 +220,4 @@ def _percent(fraction: float) -> str:
 
 def draw_wheel(drawing: WheelDrawing) -> dict[str, bytes]:
     """Files of the drawing by their suffixes `svg` and `pdf`, reproducible byte for byte."""
-    items, title = wheel_sheet(drawing), f"Flywheel of {drawing.robot}"
-    picture = svg_text(items, title, (0.0, 0.0, WIDTH, HEIGHT)) + "\n"
-    return {"svg": picture.encode(), "pdf": pdf_of_pages([items], title)}
+    return both_formats(wheel_sheet(drawing), f"Flywheel of {drawing.robot}")

@@ -72,6 +72,12 @@ def pdf_of_pages(pages: Iterable[Iterable[Item]], title: str, *, compressed: boo
     return buffer.getvalue()
 
 
+def both_formats(items: Sequence[Item], title: str) -> dict[str, bytes]:
+    """Files of one sheet by their suffixes `svg` and `pdf`."""
+    picture = svg_text(items, title, (0.0, 0.0, WIDTH, HEIGHT)) + "\n"
+    return {"svg": picture.encode(), "pdf": pdf_of_pages([items], title)}
+
+
 def _path(canvas: Canvas, points: Sequence[Point]) -> PDFPathObject:
     (x, y), *others = points
     path = canvas.beginPath()

@@ -255,7 +255,7 @@ def test_a_guard_ring_is_built_and_described_with_its_limits():
     assert "The guard ring of 1.5 mm holds that piece" in text
     assert "no ring of this kind has been tested" in text
     rows = {row.name: row for row in piece_rows(assembly)}
-    assert rows["guard ring"].file == "guard_ring.stl"
+    assert rows["guard ring"].file == "guard_ring.pdf"
     # The gap between ring and drum is for epoxy, which is on the bill.
     pieces = {piece.key: piece.mesh for piece in assembly.pieces}
     drum = foot_of(device).housing.inner_radius
