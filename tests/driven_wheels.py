@@ -8,7 +8,10 @@ from ocs_design.actuation.supply import Supply
 from ocs_design.catalogue.materials import Material
 from ocs_design.sizing.driven_wheel import DrivenWheel
 
-STEEL = Material("steel", 8000.0, 215e6, 505e6, 0.29, "test")
+STEEL = Material(
+    name="steel", density=8000.0, yield_strength=215e6, ultimate_strength=505e6,
+    poisson_ratio=0.29, source="test",
+)  # fmt: skip
 
 EC45 = Motor(
     name="EC 45 flat 70 W",

@@ -26,7 +26,10 @@ from ocs_design.robot.robot import Robot
 from ocs_design.sizing.free_place import place_on_top
 from ocs_design.sizing.selection.problem import SelectionProblem
 
-BRASS = Material("brass", 8500.0, 180e6, 340e6, 0.34, "for tests")
+BRASS = Material(
+    name="brass", density=8500.0, yield_strength=180e6, ultimate_strength=340e6,
+    poisson_ratio=0.34, source="for tests",
+)  # fmt: skip
 MATERIALS = (STEEL, ALUMINIUM, BRASS, PAPER_STEEL)
 
 

@@ -8,8 +8,11 @@ from ocs_design.catalogue.materials import Material
 from ocs_design.requirement.device_sections import Envelope
 from ocs_design.sizing.bound.rim_problem import RimProblem
 
-PAPER_STEEL = Material("stainless-paper", 7860.0, None, None, None, "Roscia 2023, Table 2")
-STEEL = Material("steel", 7850.0, 250e6, 400e6, 0.3, "for tests")
+PAPER_STEEL = Material(name="stainless-paper", density=7860.0, source="Roscia 2023, Table 2")
+STEEL = Material(
+    name="steel", density=7850.0, yield_strength=250e6, ultimate_strength=400e6,
+    poisson_ratio=0.3, source="for tests",
+)  # fmt: skip
 UNLIMITED = float("inf")
 
 

@@ -19,7 +19,10 @@ from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.search import search
 from ocs_design.sizing.selection.select import select
 
-ALUMINIUM = Material("aluminium", 2700.0, 250e6, 300e6, 0.33, "for tests")
+ALUMINIUM = Material(
+    name="aluminium", density=2700.0, yield_strength=250e6, ultimate_strength=300e6,
+    poisson_ratio=0.33, source="for tests",
+)  # fmt: skip
 NO_LIMIT = float("inf")
 
 

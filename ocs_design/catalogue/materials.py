@@ -1,25 +1,23 @@
 """Materials of flywheels, each with the source of its figures."""
 
-import csv
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
-from importlib.resources import files
-from types import MappingProxyType
-from typing import Any
+from pathlib import Path
+from typing import Annotated
 
-from ocs_design.catalogue.rows import entry
-from ocs_design.common.errors import OcsError
+from ocs_design.catalogue.rows import entry, load_entries, packaged
 from ocs_design.common.files import to_json
+from ocs_design.common.ranges import Unit
 
 DEFAULT_MATERIAL = "stainless-304"
 """Dense, cheap, rust-free, and sold as tube."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Material:
-    """An isotropic material.
+    """An isotropic material; each field is a column of the catalogue, with its unit as suffix.
 
     Attributes:
         name: in the catalogue.
@@ -32,60 +30,36 @@ class Material:
     """
 
     name: str
-    density: float
-    yield_strength: float | None
-    ultimate_strength: float | None
-    poisson_ratio: float | None
+    density: Annotated[float, Unit("kg_m3")]
+    yield_strength: Annotated[float | None, Unit("pa")] = None
+    ultimate_strength: Annotated[float | None, Unit("pa")] = None
+    poisson_ratio: float | None = None
     source: str
-    elastic_modulus: float | None = None
-    thermal_expansion: float | None = None
-
-    def __post_init__(self) -> None:
-        figures = (
-            self.density,
-            self.yield_strength,
-            self.ultimate_strength,
-            self.elastic_modulus,
-            self.thermal_expansion,
-        )
-        defect = ""
-        if not all(figure is None or 0.0 < figure < math.inf for figure in figures):
-            defect = "density, strengths, modulus and expansion must be positive and finite"
-        elif self.poisson_ratio is not None and not -1.0 < self.poisson_ratio < 0.5:
-            defect = "Poisson's ratio must lie between -1 and 0.5"
-        elif (self.yield_strength or 0.0) > (self.ultimate_strength or math.inf):
-            defect = "it cannot yield above its ultimate strength"
-        elif not self.source:
-            defect = "it has no source"
-        if defect:
-            raise OcsError(f"material {self.name!r}: {defect}")
+    elastic_modulus: Annotated[float | None, Unit("pa")] = None
+    thermal_expansion: Annotated[float | None, Unit("per_k")] = None
 
 
-_COLUMNS = {
-    "density": "density_kg_m3",
-    "yield_strength": "yield_strength_pa",
-    "ultimate_strength": "ultimate_strength_pa",
-    "poisson_ratio": "poisson_ratio",
-    "elastic_modulus": "elastic_modulus_pa",
-    "thermal_expansion": "thermal_expansion_per_k",
-}
-"""Column of each figure; its cell is empty where the source gives none."""
+def _faults(material: Material) -> Iterator[str]:
+    """Figures of a row that contradict each other, one line each."""
+    if (material.poisson_ratio or 0.0) >= 0.5:
+        yield "poisson_ratio must be below 0.5"
+    if (material.yield_strength or 0.0) > (material.ultimate_strength or math.inf):
+        yield "yield_strength_pa is above ultimate_strength_pa"
 
 
 @cache
 def materials() -> Mapping[str, Material]:
     """Every material of the catalogue by name, sorted; read and checked on the first call."""
-    text = files("ocs_design.catalogue").joinpath("materials.csv").read_text(encoding="utf-8")
-    rows = sorted(csv.DictReader(text.splitlines()), key=lambda row: row["name"])
-    by_name = {}
-    for row in rows:
-        figures: dict[str, Any] = {
-            name: float(row[column]) if row[column] else None for name, column in _COLUMNS.items()
-        }
-        by_name[row["name"]] = Material(name=row["name"], source=row["source"], **figures)
-    if len(by_name) < len(rows):
-        raise OcsError("materials.csv names a material twice")
-    return MappingProxyType(by_name)
+    return packaged("materials.csv", load_materials)
+
+
+def load_materials(path: Path) -> Mapping[str, Material]:
+    """Every material of a CSV or TOML file by name, sorted.
+
+    Raises:
+        SpecificationError: see `load_entries`.
+    """
+    return load_entries(path, "material", Material, _faults)
 
 
 def material(name: str) -> Material:

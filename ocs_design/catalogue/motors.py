@@ -153,26 +153,27 @@ class MotorSheet(MotorFigures):
     @property
     def rotor(self) -> BoltCircle | None:
         """Threads in the rotor; None unless all of their figures are given."""
-        circle = _circle(self.rotor_bolt_circle_m, self.rotor_bolts, self.rotor_thread)
-        drawn = drawn_threads(self.name, self.source)
-        return circle and replace(
-            circle,
-            screws=self.rotor_screws or USUAL_CLASS,
-            depth=self.rotor_depth_m,
-            depth_max=self.rotor_depth_max_m,
-            drawn=None if drawn is None else drawn.rotor,
-        )
+        circle = self._circle("rotor")
+        return circle and replace(circle, screws=self.rotor_screws or USUAL_CLASS)
 
     @property
     def stator(self) -> BoltCircle | None:
         """Threads in the stator; None unless all of their figures are given."""
-        circle = _circle(self.stator_bolt_circle_m, self.stator_bolts, self.stator_thread)
-        drawn = drawn_threads(self.name, self.source)
-        return circle and replace(
-            circle,
-            depth=self.stator_depth_m,
-            depth_max=self.stator_depth_max_m,
-            drawn=None if drawn is None else drawn.stator,
+        return self._circle("stator")
+
+    def _circle(self, side: str) -> BoltCircle | None:
+        """Threads on one side, `rotor` or `stator`."""
+        columns = (f"{side}_{end}" for end in ("bolt_circle_m", "bolts", "thread"))
+        diameter, bolts, thread = (getattr(self, column) for column in columns)
+        if diameter is None or bolts is None or thread is None:
+            return None
+        return BoltCircle(
+            diameter,
+            bolts,
+            thread,
+            depth=getattr(self, f"{side}_depth_m"),
+            depth_max=getattr(self, f"{side}_depth_max_m"),
+            drawn=getattr(drawn_threads(self.name, self.source), side, None),
         )
 
     @property
@@ -233,12 +234,6 @@ class MotorSheet(MotorFigures):
 def rad_s(speed_rpm: float) -> float:
     """Angular speed [rad/s]."""
     return speed_rpm * math.pi / 30.0
-
-
-def _circle(diameter: float | None, bolts: int | None, thread: str | None) -> BoltCircle | None:
-    if diameter is None or bolts is None or thread is None:
-        return None
-    return BoltCircle(diameter, bolts, thread)
 
 
 def _speed(speed_rpm: float | None) -> float | None:

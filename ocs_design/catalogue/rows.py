@@ -187,10 +187,7 @@ def numbers(raw: object) -> tuple[float, ...]:
 
 def tooth_counts(raw: object) -> tuple[int, ...]:
     """Positive whole numbers, in the form of `numbers`."""
-    counts = numbers(raw)
-    if any(count != int(count) for count in counts):
-        raise ValueError(f"{shortened(raw)} are not whole numbers")
-    return tuple(int(count) for count in counts)
+    return tuple(map(positive_integer, numbers(raw)))
 
 
 _READERS: Mapping[object, Reader] = {
@@ -393,8 +390,8 @@ def _read_cells(
             if columns[column].read in {positive, positive_integer}:
                 unread.append(columns[column].field)
     required = {item.name for item in fields(sheet) if item.default is MISSING}
-    missing = sorted(required - row.cells.keys())
-    faults.extend(f"{where}, {column}: is missing" for column in missing)
+    needed = {name for name, column in columns.items() if column.field in required}
+    faults.extend(f"{where}, {name}: is missing" for name in sorted(needed - row.cells.keys()))
     return {**dict.fromkeys(required, ""), **values}, tuple(unread)
 
 

@@ -54,49 +54,38 @@ class Table(DataclassInstance):
 
         A single index gives that row alone, with scalars.
         """
-        return self._each(lambda column: column[rows], lambda table: table.take(rows))
+        return self._combined([self], lambda column: column[rows])
 
     @classmethod
     def joined(cls, parts: Sequence[Self]) -> Self:
         """Table with the rows of several, one after the other."""
+        return cls._combined(parts, lambda *columns: np.concatenate(columns))
+
+    def repeat(self, times: int) -> Self:
+        """Table with every row `times` times in a row, shape (n * times,)."""
+        return self._combined([self], lambda column: np.repeat(column, times, axis=0))
+
+    def put(self, rows: NDArray[np.intp], others: Self) -> Self:
+        """Copy of the table with these rows replaced by those of another."""
+
+        def replaced(column: NDArray[Any], new: NDArray[Any]) -> NDArray[Any]:
+            copy = column.copy()
+            copy[rows] = new
+            return copy
+
+        return self._combined([self, others], replaced)
+
+    @classmethod
+    def _combined(cls, parts: Sequence[Self], combine: Callable[..., NDArray[Any]]) -> Self:
+        """Table in which each column is made from the columns of that name of several tables."""
         columns: dict[str, Any] = {}
         for field in fields(cls):
             values = [getattr(part, field.name) for part in parts]
             if isinstance(values[0], Table):
-                columns[field.name] = type(values[0]).joined(values)
+                columns[field.name] = type(values[0])._combined(values, combine)
             elif isinstance(values[0], np.ndarray):
-                columns[field.name] = np.concatenate(values)
+                columns[field.name] = combine(*values)
         return replace(parts[0], **columns)
-
-    def repeat(self, times: int) -> Self:
-        """Table with every row `times` times in a row, shape (n * times,)."""
-        return self._each(
-            lambda column: np.repeat(column, times, axis=0), lambda table: table.repeat(times)
-        )
-
-    def put(self, rows: NDArray[np.intp], others: Self) -> Self:
-        """Copy of the table with these rows replaced by those of another."""
-        columns: dict[str, Any] = {}
-        for field in fields(self):
-            own, other = getattr(self, field.name), getattr(others, field.name)
-            if isinstance(own, Table):
-                columns[field.name] = own.put(rows, other)
-            elif isinstance(own, np.ndarray):
-                columns[field.name] = own.copy()
-                columns[field.name][rows] = other
-        return replace(self, **columns)
-
-    def _each(
-        self, array: Callable[[NDArray[Any]], NDArray[Any]], table: Callable[["Table"], "Table"]
-    ) -> Self:
-        columns: dict[str, Any] = {}
-        for field in fields(self):
-            value = getattr(self, field.name)
-            if isinstance(value, Table):
-                columns[field.name] = table(value)
-            elif isinstance(value, np.ndarray):
-                columns[field.name] = array(value)
-        return replace(self, **columns)
 
 
 Rows = TypeVar("Rows", bound=Table)

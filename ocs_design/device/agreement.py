@@ -23,8 +23,7 @@ from ocs_design.device.solids import foot_of
 from ocs_design.parts.module import carrier_of
 from ocs_design.parts.motor_mount import hub_of
 from ocs_design.parts.rim import HoleRing, hoop_stress, stored_energy, wheel_body
-from ocs_design.parts.solids import Carrier
-from ocs_design.robot.mass import MassProperties, combine
+from ocs_design.robot.mass import MassProperties
 
 ROUNDING = 1e-8
 """Difference, relative to the largest of the figures compared, that counts as rounding; files have
@@ -126,11 +125,11 @@ def _figures(design: OcsDesign, device: Device) -> Iterator[_Figure]:
     yield _Figure("ocs.mass_total", ocs.mass_total, device.mass, "kg", parts)
     robot = design.robot
     bare_robot = MassProperties(robot.mass, np.array(robot.com), np.array(robot.inertia))
-    added = _braked_device(device)
-    total = combine([bare_robot, added])
+    total = device.on(bare_robot)
     places = "positions and masses of ocs.modules and their supports give"
     if ocs.center_of_mass is not None:
-        yield _Figure("ocs.center_of_mass", ocs.center_of_mass, added.com, "m", places)
+        com = (total.mass * total.com - bare_robot.mass * bare_robot.com) / device.mass
+        yield _Figure("ocs.center_of_mass", ocs.center_of_mass, com, "m", places)
     yield _Figure("ocs.total_mass", ocs.total_mass, total.mass, "kg", "robot and device weigh")
     yield _Figure("ocs.total_com", ocs.total_com, total.com, "m", places)
     yield _Figure("ocs.total_inertia", ocs.total_inertia, total.inertia, "kg m^2", places)
@@ -272,16 +271,3 @@ def _carrier_figures(device: Device) -> Iterator[_Figure]:
     places = (recorded.along, recorded.up), (computed.along, computed.up)
     yield _Figure("ocs.carrier.along and up", *places, "m", parts)
     yield _Figure("the inertia of ocs.carrier", recorded.inertia, computed.inertia, "kg m^2", parts)
-
-
-def _braked_device(device: Device) -> MassProperties:
-    """The device alone, its wheels braked, in B."""
-    wheel, motor = device.flywheel, device.motor
-    axial = wheel.spin_inertia - motor.rotor_inertia
-    braked_wheel = Carrier(wheel.mass, axial, wheel.transverse_inertia)
-    modules = (
-        body.mass_properties().moved(module.frame, module.position)
-        for module in device.modules
-        for body in (braked_wheel, device.carrier)
-    )
-    return combine([*modules, *(support.mass_properties() for support in device.supports)])

@@ -4,7 +4,7 @@ Files are made from it without further checks, so invalid lengths, masses and di
 here.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import fields, is_dataclass
 from math import hypot
 from typing import TYPE_CHECKING
@@ -45,12 +45,7 @@ def check_device(device: Device) -> None:
             faults.append(f"the axis of module {module.name} is not a unit vector")
         if not (np.abs(module.position) <= LARGEST_LENGTH).all():
             faults.append(f"the position of module {module.name} is out of range")
-    faults += _wheel_faults(device.flywheel)
-    if faults:
-        raise OcsError(
-            f"the design describes a device that cannot exist: {'; '.join(faults)}",
-            hint="run `ocs-design size` again to write a new design",
-        )
+    _refuse("a device that cannot exist", [*faults, *_wheel_faults(device.flywheel)])
 
 
 def check_control(control: ControlRecord) -> None:
@@ -59,10 +54,14 @@ def check_control(control: ControlRecord) -> None:
     Raises:
         OcsError: lists every fault.
     """
-    faults = [*_figures(control, "control")]
+    _refuse("a wheel law that cannot be flown", [*_figures(control, "control")])
+
+
+def _refuse(subject: str, faults: Sequence[str]) -> None:
+    """Raise an error that lists the faults of a subject; nothing if there are none."""
     if faults:
         raise OcsError(
-            f"the design describes a wheel law that cannot be flown: {'; '.join(faults)}",
+            f"the design describes {subject}: {'; '.join(faults)}",
             hint="run `ocs-design size` again to write a new design",
         )
 

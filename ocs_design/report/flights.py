@@ -267,15 +267,11 @@ def landing_remarks(design: OcsDesign) -> Iterator[str]:
     without_device = {run.scenario: run for run in design.validation if not run.ocs}
     swings = []
     for run in with_device:
-        swing = _swing(run)
-        swing_without = (
-            _swing(without_device[run.scenario]) if run.scenario in without_device else None
-        )
-        if (
-            swing is not None
-            and swing_without is not None
-            and swing > swing_without + SWING_INCREASE_NOTED
-        ):
+        bare = without_device.get(run.scenario)
+        swing, swing_without = _swing(run), None if bare is None else _swing(bare)
+        if swing is None or swing_without is None:
+            continue
+        if swing > swing_without + SWING_INCREASE_NOTED:
             swings.append(f"{run.scenario} {degrees(swing)}, {degrees(swing_without)} without")
     if swings:
         yield f"on the ground the trunk swings further with the device: {'; '.join(swings)}"

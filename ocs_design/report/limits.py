@@ -167,11 +167,11 @@ def _exceeds_continuous_rating(margin: Margin) -> bool:
 
 def pause_remark(design: OcsDesign) -> str:
     """Currents above the motor's continuous rating, and the pauses they require; empty if none."""
-    overloads = [margin for margin in design.margins if _exceeds_continuous_rating(margin)]
     return "; ".join(
         f"{quantity(margin.demand, margin.unit)} rms in {margin.scenario} "
         f"(continuous rating {quantity(margin.capacity or 0.0, margin.unit)}), {margin.note}"
-        for margin in overloads
+        for margin in design.margins
+        if _exceeds_continuous_rating(margin)
     )
 
 
@@ -193,22 +193,12 @@ def saving_changes(design: OcsDesign) -> Rows:
         for alternative in design.alternatives
         if alternative.mass_total is not None and alternative.mass_total < mass - _NEGLIGIBLE_MASS
     ]
-    return tuple(
-        (
-            f"-{grams(-change)}",
-            "; ".join(
-                filter(
-                    None,
-                    [
-                        alternative.change,
-                        alternative.motor if alternative.motor != motor else "",
-                        alternative.note,
-                    ],
-                )
-            ),
-        )
-        for change, alternative in sorted(savings, key=lambda item: item[0])
-    )
+    rows = []
+    for change, alternative in sorted(savings, key=lambda item: item[0]):
+        other_motor = alternative.motor if alternative.motor != motor else ""
+        texts = filter(None, [alternative.change, other_motor, alternative.note])
+        rows.append((f"-{grams(-change)}", "; ".join(texts)))
+    return tuple(rows)
 
 
 def alternatives_table(design: OcsDesign) -> CellTable:
@@ -230,20 +220,14 @@ def alternatives_table(design: OcsDesign) -> CellTable:
 
 def useless_changes_note(design: OcsDesign) -> str:
     """Sentence on the changes that save nothing; empty if all save mass."""
-    useless = [
-        alternative.change
-        for alternative in design.alternatives
-        if alternative.note == SAVES_NOTHING
-    ]
+    useless = [other.change for other in design.alternatives if other.note == SAVES_NOTHING]
     return f"These save nothing: {'; '.join(useless)}." if useless else ""
 
 
 def lighter_table(design: OcsDesign) -> CellTable:
     """Changes that would each make the device lighter by the requested mass."""
     changes = () if design.lighter is None else design.lighter.changes
-    rows = tuple(
-        (change.change, grams(change.mass_total or 0.0), change.motor) for change in changes
-    )
+    rows = tuple((other.change, grams(other.mass_total or 0.0), other.motor) for other in changes)
     return CellTable(columns("<any one of these suffices", "mass", "<motor"), rows)
 
 
@@ -352,13 +336,10 @@ def reserve_note(reserve: ReserveRecord, mass: float) -> str:
     )
     masses, curve = [device_mass for _, device_mass in reserve.curve], ""
     if masses and max(masses) - min(masses) < _NEGLIGIBLE_MASS:
-        most = f"{100.0 * reserve.curve[-1][0]:g} %"
-        curve = f"No extra mass up to {most}."
+        curve = f"No extra mass up to {100.0 * reserve.curve[-1][0]:g} %."
     elif masses:
-        masses_text = ", ".join(
-            f"{grams(device_mass)} for {100.0 * level:g} %" for level, device_mass in reserve.curve
-        )
-        curve = f"With the same motor and material the device weighs {masses_text}."
+        texts = (f"{grams(least)} for {100.0 * level:g} %" for level, least in reserve.curve)
+        curve = f"With the same motor and material the device weighs {', '.join(texts)}."
     return (
         f"To cover {100.0 * reserve.reliability:g} % of robots, the demands are multiplied by: "
         f"{factors}; the nominal device covers factors up to 1. The closed forms predict that "

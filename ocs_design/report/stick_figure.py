@@ -55,12 +55,11 @@ def stick_figure(robot: Robot, legs: Sequence[Leg], lines: Sequence[str]) -> str
     height = 2.0 * _MARGIN + _VIEW_SIZE + 18.0 * len(lines)
     elements: list[str] = []
     for index, (name, right, up) in enumerate(_VIEWS):
-        left, axes = (
-            _MARGIN + index * (_VIEW_SIZE + _MARGIN),
-            scale * np.array([right, -np.array(up)]),
-        )
-        elements.append(_text(left, _MARGIN - 10.0, name, size=14))
+        left = _MARGIN + index * (_VIEW_SIZE + _MARGIN)
+        # Axes of B on the page, right and down [px/m], shape (2, 3), and its origin [px].
+        axes = scale * np.array([right, -np.array(up)])
         origin = np.array([left, _MARGIN]) + 0.5 * _VIEW_SIZE - axes @ (0.5 * (low + high))
+        elements.append(_text(left, _MARGIN - 10.0, name, size=14))
         elements += _view_elements(origin, axes, robot, legs, feet=feet, corners=corners)
     for row, line in enumerate(lines):
         elements.append(_text(_MARGIN, 2.0 * _MARGIN + _VIEW_SIZE + 18.0 * row, line, size=13))
@@ -81,15 +80,7 @@ def _view_elements(
     feet: Mapping[str, FloatArray],
     corners: Sequence[FloatArray],
 ) -> Iterator[str]:
-    """Elements of one view of the robot.
-
-    Args:
-        origin: origin of B on the page [px].
-        axes: axes of B on the page, right and down, shape (2, 3) [px/m].
-        robot, legs: see `stick_figure`.
-        feet: feet in B by the names of their legs [m].
-        corners: corners of the box around the trunk in B [m].
-    """
+    """Elements of one view: `feet` by the names of their legs and `corners` of the trunk, in B."""
     places = robot.tree.placements_from(robot.trunk, robot.posture)
     joints = [origin + axes @ place.position for place in places]
     if corners:

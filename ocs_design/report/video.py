@@ -75,20 +75,19 @@ def film_flights(
     """
     films = []
     for maneuver in maneuvers:
-        pair = [run for run in runs if run.scenario == maneuver.name and run.poses is not None]
+        own_runs = [run for run in runs if run.scenario == maneuver.name]
+        pair = [(run, run.poses) for run in own_runs if run.poses is not None]
         if not pair:
             continue
         flown = device.as_flown(maneuver)
-        poses = [run.poses for run in pair if run.poses is not None]
         takes = [
-            Take(film_model(robot, flown, ocs=run.ocs), pose.qpos[::STRIDE])
-            for run, pose in zip(pair, poses, strict=True)
+            Take(film_model(robot, flown, ocs=run.ocs), poses.qpos[::STRIDE]) for run, poses in pair
         ]
         sides = []
-        for run, pose, frames in zip(pair, poses, render_takes(takes), strict=True):
+        for (run, poses), frames in zip(pair, render_takes(takes), strict=True):
             title, side = f"{run.scenario}, {'with' if run.ocs else 'without'} the device", []
             series = run.series
-            for frame, time in zip(frames, pose.time[::STRIDE], strict=True):
+            for frame, time in zip(frames, poses.time[::STRIDE], strict=True):
                 index = min(int(np.searchsorted(series.time, time - 1e-9)), len(series.time) - 1)
                 tilt = float(off_level(series.roll[index], series.pitch[index]))
                 lines = [f"{time:.2f} s   tilt {degrees(tilt, 0)}"]
@@ -98,12 +97,12 @@ def film_flights(
                 side.append(captioned(frame, title, run.passed, lines))
             sides.append(side)
         # The shorter film holds its last frame until the other ends.
-        longest = max(map(len, sides))
         film: list[Picture] = [
             np.concatenate([side[min(k, len(side) - 1)] for side in sides], axis=1)
-            for k in range(longest)
+            for k in range(max(map(len, sides)))
         ]
-        seconds = STRIDE * float(poses[0].time[1] - poses[0].time[0])
+        times = pair[0][1].time
+        seconds = STRIDE * float(times[1] - times[0])
         films.append(encode(film, seconds, folder / safe_name(maneuver.name)))
     return tuple(films)
 
@@ -141,18 +140,9 @@ def encode(pictures: Sequence[Picture], seconds: float, stem: Path) -> Path:
         # H.264, which all browsers play.
         codec = ["-c:v", "libx264", "-crf", "23", "-pix_fmt", "yuv420p", "-movflags", "+faststart"]
         with suppress(OSError, subprocess.TimeoutExpired):
+            rate = f"{1.0 / seconds:.6f}"
             result = subprocess.run(
-                [
-                    program,
-                    "-y",
-                    *source,
-                    "-r",
-                    f"{1.0 / seconds:.6f}",
-                    "-i",
-                    "-",
-                    *codec,
-                    str(path),
-                ],
+                [program, "-y", *source, "-r", rate, "-i", "-", *codec, str(path)],
                 input=b"".join(picture.tobytes() for picture in pictures),
                 capture_output=True,
                 check=False,

@@ -12,7 +12,7 @@ import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from functools import partial
 from importlib import metadata
 from pathlib import Path
@@ -89,88 +89,57 @@ for name in sys.argv[1:]:
 """
 
 
-@dataclass(frozen=True)
-class PackageRequirement:
-    """A package that is required or optional.
+def package_requirements() -> tuple[tuple[Requirement, str], ...]:
+    """All packages that users may need, each with the extra that needs it; required ones first.
 
-    Attributes:
-        name: of the package. versions: that are allowed, in pip's notation.
-        extra: of this package that needs it; empty: it is always required.
-    """
-
-    name: str
-    versions: str
-    extra: str = ""
-
-    @property
-    def module(self) -> str:
-        """Name of the module to import."""
-        return _MODULES.get(self.name) or self.name.replace("-", "_")
-
-    def cure(self, state: State) -> str:
-        """Command that fixes a package in this state; empty if it works."""
-        if state is State.WORKS:
-            return ""
-        if state is State.BROKEN:
-            return install_command(f"{self.name}{self.versions}", options="--force-reinstall")
-        requirement = (
-            f"{DISTRIBUTION}[{self.extra}]" if self.extra else f"{self.name}{self.versions}"
-        )
-        return install_command(requirement)
-
-
-def package_requirements() -> tuple[PackageRequirement, ...]:
-    """All packages that users may need, required ones first.
+    The extra of a required package is empty.
 
     Raises:
         importlib.metadata.PackageNotFoundError: this package itself is not installed.
     """
     requirements = [Requirement(line) for line in metadata.requires(DISTRIBUTION) or ()]
     extras = metadata.metadata(DISTRIBUTION).get_all("Provides-Extra") or ()
-
-    def package(requirement: Requirement, extra: str = "") -> PackageRequirement:
-        return PackageRequirement(
-            canonicalize_name(requirement.name), str(requirement.specifier), extra
-        )
-
-    required = [package(requirement) for requirement in requirements if requirement.marker is None]
+    required = [(requirement, "") for requirement in requirements if requirement.marker is None]
     optional = [
-        package(requirement, extra)
+        (requirement, extra)
         for extra in extras
         if extra not in DEVELOPMENT
         for requirement in requirements
         if requirement.marker is not None and requirement.marker.evaluate({"extra": extra})
     ]
-    return (*sorted(required, key=lambda package: package.name), *optional)
+    return (*sorted(required, key=lambda package: package[0].name), *optional)
 
 
-def package_findings(packages: Sequence[PackageRequirement]) -> Iterator[Finding]:
-    """Findings about the packages, each imported in a process of its own."""
-    versions = dict.fromkeys((package.name for package in packages), "")
-    for name in versions:
+def package_findings(packages: Sequence[tuple[Requirement, str]]) -> Iterator[Finding]:
+    """Findings about packages with their extras, each imported in a process of its own."""
+    names = [canonicalize_name(requirement.name) for requirement, _ in packages]
+    modules = {name: _MODULES.get(name) or name.replace("-", "_") for name in names}
+    versions = {}
+    for name in modules:
         with suppress(metadata.PackageNotFoundError):
             versions[name] = metadata.version(name)
-    failures = import_failures([package.module for package in packages if versions[package.name]])
-    for requirement in packages:
-        installed = versions[requirement.name]
-        reason = failures.get(requirement.module, "")
-        allowed = SpecifierSet(requirement.versions)
+    failures = import_failures([modules[name] for name in versions])
+    for name, (requirement, extra) in zip(names, packages, strict=True):
+        installed, reason = versions.get(name, ""), failures.get(modules[name], "")
+        wanted = str(requirement.specifier)
+        state = State.WORKS
+        cure = install_command(f"{DISTRIBUTION}[{extra}]" if extra else f"{name}{wanted}")
         if not installed:
             state = State.MISSING
         elif reason:
             state = State.BROKEN
-        else:
-            is_allowed = allowed.contains(installed, prereleases=True)
-            state = State.WORKS if is_allowed else State.UNFIT
+            cure = install_command(f"{name}{wanted}", options="--force-reinstall")
+        elif not requirement.specifier.contains(installed, prereleases=True):
+            state = State.UNFIT
         yield Finding(
-            name=requirement.name,
+            name=name,
             state=state,
-            required=not requirement.extra,
+            required=not extra,
             found=installed,
-            wanted=requirement.versions,
-            purpose=PURPOSES.get(requirement.name, f"the extra {requirement.extra}"),
-            extra=requirement.extra,
-            cure=requirement.cure(state),
+            wanted=wanted,
+            purpose=PURPOSES.get(name, f"the extra {extra}"),
+            extra=extra,
+            cure="" if state is State.WORKS else cure,
             reason=reason,
         )
 
@@ -225,14 +194,15 @@ def folder_finding(folder: Path) -> Finding:
     )
 
 
+def _machine_finding(name: str, purpose: str, found: str, cure: str = "") -> Finding:
+    """Finding about a part of the machine, which is missing if nothing was found."""
+    state = State.WORKS if found else State.MISSING
+    return Finding(name=name, state=state, found=found, purpose=purpose, cure="" if found else cure)
+
+
 def processors_finding() -> Finding:
     """Finding about the processors that this process may use."""
-    return Finding(
-        name="processors",
-        state=State.WORKS,
-        found=str(processors()),
-        purpose="flights, several at once",
-    )
+    return _machine_finding("processors", "flights, several at once", str(processors()))
 
 
 def opengl_findings() -> Iterator[Finding]:
@@ -262,25 +232,14 @@ def ffmpeg_finding() -> Finding:
             ).stdout.split()
             # "ffmpeg version 6.1.1-3 Copyright ..."
             installed = words[2].partition("-")[0] if len(words) > 2 else "unknown"
-    return Finding(
-        name="ffmpeg",
-        state=State.WORKS if installed else State.MISSING,
-        found=installed,
-        purpose="videos",
-        cure="" if installed else FFMPEG_HINT,
-    )
+    return _machine_finding("ffmpeg", "videos", installed, FFMPEG_HINT)
 
 
 def compiler_finding() -> Finding:
     """Finding about a C compiler, under the names that `make` and Python's own builds try."""
     program = next((name for name in ("cc", "gcc", "clang") if shutil.which(name)), "")
-    return Finding(
-        name="C compiler",
-        state=State.WORKS if program else State.MISSING,
-        found=program,
-        purpose="the exported controller",
-        cure="" if program else "install a C compiler, on Debian: apt install gcc",
-    )
+    cure = "install a C compiler, on Debian: apt install gcc"
+    return _machine_finding("C compiler", "the exported controller", program, cure)
 
 
 SCHEMA_VERSION = 1

@@ -5,6 +5,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
 
+import numpy as np
+
 from ocs_design import __version__
 from ocs_design.actuation.drive import RESERVE
 from ocs_design.common.arrays import matrix, vector
@@ -38,7 +40,7 @@ from ocs_design.device.records.selection import (
 )
 from ocs_design.export.assembly_notes import device_notes, trunk_notes
 from ocs_design.parts.printed import CLEARANCE, PANEL, WALL
-from ocs_design.report.story import export_time_series, series_file
+from ocs_design.report.story import series_file
 from ocs_design.requirement.resolving import Resolved
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.run import Run
@@ -96,12 +98,14 @@ STOPPED_FILE = "stopped.csv"
 
 
 def write_runs(runs: Sequence[Run], folder: Path, survival: SurvivalRecord | None = None) -> None:
-    """Write one CSV per flight, and one for all flights in which a drive fails."""
+    """Write one CSV per flight, six significant digits, and one for all in which a drive fails."""
     if runs:
         (folder / FOLDER).mkdir()
     for run in runs:
         path = folder / FOLDER / series_file(run.scenario, ocs=run.ocs)
-        export_time_series(run.series.columns(), path)
+        columns = run.series.columns()
+        table, heads = np.column_stack(list(columns.values())), ",".join(columns)
+        np.savetxt(path, table, "%.6g", ",", header=heads, comments="", encoding="utf-8")
     if survival is not None:
         with (folder / FOLDER / STOPPED_FILE).open("w", encoding="utf-8", newline="") as stream:
             writer = csv.writer(stream, lineterminator="\n")

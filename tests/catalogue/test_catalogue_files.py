@@ -335,7 +335,7 @@ GEAR = "[[gear]]\nname = 'G'\nmaker = 'me'\nsource = 'bench'\nkind = 'fixed'\n"
         ("efficiency = 1.2", "efficiency: 1.2 is not above 0 and at most 1"),
         ("reverses = 'perhaps'", "reverses: 'perhaps' is neither yes nor no"),
         ("ratios = [2, -3]", "ratios: -3 is not positive"),
-        ("teeth = [20.5]", "teeth: .* not whole numbers"),
+        ("teeth = [20.5]", "teeth: .* not a whole number"),
         ("inertia_at = 'planet'", "inertia_at: 'planet' is not one of motor, wheel"),
     ],
 )

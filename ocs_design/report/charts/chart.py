@@ -7,7 +7,6 @@ from math import ceil, floor, log10
 from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ocs_design.common.arrays import FloatArray
 
@@ -208,16 +207,7 @@ def thinned(x: FloatArray, y: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Line with fewer points and the same peaks: the minimum and maximum of each piece."""
     if len(x) <= MOST_POINTS:
         return x, y
-    pieces, length = MOST_POINTS // 2, len(x) // (MOST_POINTS // 2)
-    # The first pieces are longer by one, as in `array_split`.
-    longer = (length + 1) * (len(x) % pieces)
-    ends = (*_ends(y[:longer], length + 1), *(longer + end for end in _ends(y[longer:], length)))
-    kept = np.unique(np.concatenate([[0], *ends, [len(x) - 1]]))
+    pieces = np.array_split(np.arange(len(x)), MOST_POINTS // 2)
+    extremes = [piece[[y[piece].argmin(), y[piece].argmax()]] for piece in pieces]
+    kept = np.unique(np.concatenate([[0], *extremes, [len(x) - 1]]))
     return x[kept], y[kept]
-
-
-def _ends(y: FloatArray, size: int) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Indices of the minimum and maximum of each piece of that size."""
-    rows = y.reshape(-1, size)
-    first = np.arange(len(rows)) * size
-    return first + rows.argmin(axis=1), first + rows.argmax(axis=1)

@@ -126,16 +126,11 @@ def _rendered(table: CellTable, console: Console) -> rich_table.Table:
 
 def _narrowed(table: CellTable, excess: int) -> CellTable:
     """Table that is narrower by so many characters: the widest texts are wrapped between words."""
-    widths = {
-        index: max(
-            [
-                *map(len, column.name.split("\n")),
-                *(len(cell_text(row[index])) for row in table.rows),
-            ]
-        )
-        for index, column in enumerate(table.columns)
-        if column.words
-    }
+    widths = {}
+    for index, column in enumerate(table.columns):
+        texts = [*column.name.split("\n"), *(cell_text(row[index]) for row in table.rows)]
+        if column.words:
+            widths[index] = max(map(len, texts))
     for _ in range(excess if widths else 0):
         widest = max(widths, key=widths.__getitem__)
         widths[widest] = max(widths[widest] - 1, _NARROWEST_COLUMN)
@@ -165,11 +160,9 @@ def files_written(
     `design_content` says what its design.json contains; empty if it has none.
     """
     heading(console, f"Written to {folder}/")
-    rows = (
-        [(DESIGN_FILE, f"{design_content}, and the hashes of the other files")]
-        if design_content
-        else []
-    )
+    rows = []
+    if design_content:
+        rows.append((DESIGN_FILE, f"{design_content}, and the hashes of the other files"))
     if (Path(folder) / REPORT_FILE).is_file():
         rows.append((REPORT_FILE, "the whole report to read, mail and sign: open it in a browser"))
     folders: dict[str, list[str]] = {}

@@ -169,10 +169,10 @@ def print_summary(console: Console, design: OcsDesign, runs: Sequence[Run], fold
     rows = [("robot", f"{robot.name}, {robot.mass:.4g} kg, posture {robot.posture_name}")]
     rows += first_facts(design)
     active, driving = limits.active_limit_names(design), limits.driving_maneuver_text(design)
-    causes = [f"{listed(active)} active" if active else ""]
-    causes.append(f"mass driven by {driving}" if driving else "")
-    if any(causes):
-        rows.append(("limits", "; ".join(filter(None, causes))))
+    causes = [f"{listed(active)} active"] if active else []
+    causes += [f"mass driven by {driving}"] if driving else []
+    if causes:
+        rows.append(("limits", "; ".join(causes)))
     for index, (share, names) in enumerate(limits.utilizations(design)[:MOST_MARGINS]):
         rows.append(("" if index else "used", f"{share} {names}"))
     if limits.pause_remark(design):

@@ -14,8 +14,14 @@ from ocs_design.sizing.selection.problem import SAME_MASS, devices_by_mass, ligh
 from ocs_design.sizing.selection.search import search
 from ocs_design.sizing.selection.select import select, select_by
 
-STRONG = Material("strong", 7833.0, 621e6, 827e6, 0.32, "for tests")
-WEAK = Material("weak", 7833.0, 552e6, 621e6, 0.32, "for tests")
+STRONG = Material(
+    name="strong", density=7833.0, yield_strength=621e6, ultimate_strength=827e6,
+    poisson_ratio=0.32, source="for tests",
+)  # fmt: skip
+WEAK = Material(
+    name="weak", density=7833.0, yield_strength=552e6, ultimate_strength=621e6,
+    poisson_ratio=0.32, source="for tests",
+)  # fmt: skip
 ROUNDING = 1e-9
 """Relative change of a mass, larger than differences between processors."""
 SEED, MOTORS = 1, 1
