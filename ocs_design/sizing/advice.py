@@ -1,10 +1,10 @@
 """Advice when no motor suffices: the smallest single changes that make a device feasible.
 
 Each change is tested by asking whether any device is feasible for a slightly different problem
-(`Field`). Which device does not matter, so candidates are not ranked: those whose largest wheel
-exceeds their need the most are tried first, and the first that is solved ends the search. Where
-nothing is feasible, nearly all candidates are ruled out by what they need with a massless wheel and
-by the largest wheel in closed form.
+(`is_feasible`). Which device does not matter, so candidates are not ranked: those whose largest
+wheel exceeds their need the most are tried first, and the first that is solved ends the search.
+Where nothing is feasible, nearly all candidates are ruled out by what they need with a massless
+wheel and by the largest wheel in closed form.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -15,13 +15,11 @@ from itertools import chain, repeat
 import numpy as np
 
 from ocs_design.actuation.motor import DIRECT, Motor
-from ocs_design.common.arrays import FloatArray
 from ocs_design.common.units import round_outwards
 from ocs_design.common.wording import some_of
 from ocs_design.requirement.bound import per_wheel, spin_demands
 from ocs_design.requirement.kinds import change_text
 from ocs_design.requirement.maneuver import Maneuver
-from ocs_design.requirement.requirement import Requirement
 from ocs_design.sizing.bound.rim_problem import largest_spin_inertia
 from ocs_design.sizing.limits import (
     TIME,
@@ -43,7 +41,6 @@ from ocs_design.sizing.selection.candidates import (
     drives_of,
     known_pairs,
 )
-from ocs_design.sizing.selection.drives import Drives
 from ocs_design.sizing.selection.fixed_point import solve_stepwise
 from ocs_design.sizing.selection.problem import (
     Reason,
@@ -56,7 +53,7 @@ from ocs_design.sizing.selection.rejections import Refused, largest_wheel
 
 ADVICE_PRECISION = 0.03
 """Relative precision of the changes: with a change smaller by more than this, none of the drives
-that `Field.possible` tries is feasible."""
+that `is_feasible` tries is feasible."""
 
 LARGEST_FACTOR = 10.0
 """Largest factor by which a limit is changed; beyond it, the project is a different one."""
@@ -87,109 +84,51 @@ _MOST_SOLVED = 128
 """Number of candidates, the most promising first, that are solved before the answer is no."""
 
 
-@dataclass(frozen=True, eq=False)
-class Field:
-    """Drives of a problem that are still being considered.
+def is_feasible(problem: SelectionProblem) -> bool:
+    """Whether any of the most promising candidates has a device; others are not tried."""
+    tried = 0
+    for candidates, guess in _promising(problem):
+        # The search ends at the first that has a device.
+        if any(solved.point.feasible.any() for solved in solve_stepwise(candidates, guess)):
+            return True
+        tried += len(candidates)
+        if tried >= _MOST_SOLVED:
+            break
+    return False
 
-    Attributes:
-        problem: requirement and envelope.
-        drives: n of them.
-        needed: least spin inertia of their wheels, whatever they weigh [kg m^2], shape (n,); inf
-            where no wheel would do.
-    """
 
-    problem: SelectionProblem
-    drives: Drives
-    needed: FloatArray
+def is_conceivable(problem: SelectionProblem) -> bool:
+    """Whether the bounds leave any candidate; if not, nothing is feasible."""
+    return any(len(candidates) for candidates, _ in _promising(problem))
 
-    @classmethod
-    def of(cls, problem: SelectionProblem, drives: Drives | None = None) -> "Field":
-        """All motors and gears whose figures are known, or these drives."""
-        if drives is None:
-            pairs = np.argwhere(known_pairs(problem))
-            drives = drives_of(problem, pairs)
-        intervals, nothing = (
-            incidence_intervals(problem.incidence, _INTERVALS),
-            np.zeros(len(drives)),
-        )
-        needed = least_spin_inertias(problem, drives, intervals, nothing)
-        return cls(problem, drives, needed.min(axis=1))
 
-    def changed(self, problem: SelectionProblem) -> "Field":
-        """Field of these drives for a problem that differs in a limit."""
-        old, drives = self.problem, self.drives
-        same_voltage = problem.bus_voltage == old.bus_voltage
-        if not (same_voltage and problem.wheel_speed_max == old.wheel_speed_max):
-            drives = drives_of(problem, np.column_stack([drives.motor, drives.gear]))
-        return Field.of(problem, drives)
-
-    def with_limit(self, limit: Limit, value: float) -> "Field":
-        """Field of these drives with one of the problem's limits changed [SI]."""
-        return self.changed(with_limit(self.problem, limit, value))
-
-    def with_requirement(self, requirement: Requirement) -> "Field":
-        """Field of these drives for another requirement."""
-        return self.changed(replace(self.problem, requirement=requirement))
-
-    @property
-    def possible(self) -> bool:
-        """Whether any of the most promising candidates has a device; others are not tried."""
-        tried = 0
-        for candidates, guess in self._bounded():
-            # The search ends at the first that has a device.
-            if any(solved.point.feasible.any() for solved in solve_stepwise(candidates, guess)):
-                return True
-            tried += len(candidates)
-            if tried >= _MOST_SOLVED:
-                break
-        return False
-
-    @property
-    def conceivable(self) -> bool:
-        """Whether the bounds leave any candidate; if not, nothing is possible."""
-        return any(len(candidates) for candidates, _ in self._bounded())
-
-    def change_text(self, limit: Limit, value: float) -> str:
-        """A change in the user's terms: time is set by each maneuver's own keys.
-
-        More time is advised only for the maneuvers that need it, out of those that this much more
-        time makes feasible together.
-        """
-        if limit is not TIME:
-            return limit.loose_text(value)
-        present = self.problem.requirement.maneuvers
-        slow = {maneuver.name for maneuver in present}
-        for maneuver in present:
-            names = slow - {maneuver.name}
-            if names and self.changed(with_time(self.problem, value, names)).possible:
-                slow = names
-        slower = with_time(self.problem, value, slow).requirement.maneuvers
-        pairs = zip(present, slower, strict=True)
-        return " together with ".join(change_text(old, new) for old, new in pairs if old is not new)
-
-    def _bounded(self) -> Iterator[tuple[Candidates, Guess]]:
-        """Candidates that no bound rules out, the most promising first, few at first."""
-        candidates = Candidates.of_each_material(self.problem, self.drives)
-        # Candidates whose largest wheel has the most margin come first; too small ones are dropped.
-        inertia_beside_rim = candidates.drives.inertia_beside_rim
-        needed = np.repeat(self.needed, len(self.problem.materials))
-        largest = largest_spin_inertia(candidates.limits) + inertia_beside_rim
-        margin = largest / np.maximum(needed, 1e-15)
-        large_enough = np.flatnonzero((largest > inertia_beside_rim) & (margin >= 1.0))
-        order = large_enough[np.argsort(-margin[large_enough], kind="stable")]
-        left, needed = candidates.take(order), needed[order]
-        sizes = chain([_FIRST_BOUNDED], repeat(_BOUNDED))
-        while len(left):
-            size = next(sizes)
-            block = left.take(np.arange(min(size, len(left))))
-            guess = initial_guess(block, needed[:size])
-            rows = np.flatnonzero(np.isfinite(guess.mass))
-            solved = chain([_FIRST_SOLVED], repeat(_SOLVED))
-            while rows.size:
-                count = next(solved)
-                yield block.take(rows[:count]), guess.take(rows[:count])
-                rows = rows[count:]
-            left, needed = left.take(np.arange(size, len(left))), needed[size:]
+def _promising(problem: SelectionProblem) -> Iterator[tuple[Candidates, Guess]]:
+    """Candidates that no bound rules out, the most promising first, few at first."""
+    drives = drives_of(problem, np.argwhere(known_pairs(problem)))
+    intervals = incidence_intervals(problem.incidence, _INTERVALS)
+    # Least spin inertia of their wheels, whatever they weigh; inf where no wheel would do.
+    least = least_spin_inertias(problem, drives, intervals, np.zeros(len(drives))).min(axis=1)
+    candidates = Candidates.of_each_material(problem, drives)
+    # Candidates whose largest wheel has the most margin come first; too small ones are dropped.
+    inertia_beside_rim = candidates.drives.inertia_beside_rim
+    needed = np.repeat(least, len(problem.materials))
+    largest = largest_spin_inertia(candidates.limits) + inertia_beside_rim
+    margin = largest / np.maximum(needed, 1e-15)
+    large_enough = np.flatnonzero((largest > inertia_beside_rim) & (margin >= 1.0))
+    order = large_enough[np.argsort(-margin[large_enough], kind="stable")]
+    left, needed = candidates.take(order), needed[order]
+    sizes = chain([_FIRST_BOUNDED], repeat(_BOUNDED))
+    while len(left):
+        size = next(sizes)
+        block = left.take(np.arange(min(size, len(left))))
+        guess = initial_guess(block, needed[:size])
+        rows = np.flatnonzero(np.isfinite(guess.mass))
+        solved = chain([_FIRST_SOLVED], repeat(_SOLVED))
+        while rows.size:
+            count = next(solved)
+            yield block.take(rows[:count]), guess.take(rows[:count])
+            rows = rows[count:]
+        left, needed = left.take(np.arange(size, len(left))), needed[size:]
 
 
 def advice_on(
@@ -210,10 +149,9 @@ def advice_on(
     changes: dict[Limit, float] = {}
     hints: list[str] = [_GIVE_FIGURES]
     if reason is not Reason.FIGURES:
-        field = Field.of(problem)
         # Changing a limit does not help where the incidence is at fault.
         if reason is not Reason.INCIDENCE:
-            changes = single_changes(field, progress)
+            changes = single_changes(problem, progress)
         nearest_motor = next(
             motor for motor in problem.motors if motor.name == refused.nearest.motor
         )
@@ -225,15 +163,17 @@ def advice_on(
             feasible = [
                 maneuver.name
                 for maneuver in requirement.maneuvers
-                if field.with_requirement(replace(requirement, maneuvers=(maneuver,))).possible
+                if is_feasible(
+                    replace(problem, requirement=replace(requirement, maneuvers=(maneuver,)))
+                )
             ]
             if feasible:
                 alone = "by itself" if len(feasible) == 1 else "one at a time"
                 hints.append(f"Feasible {alone}: {some_of(feasible)}.")
         hints += [
-            *_balanced_upset(field),
+            *_balanced_upset(problem),
             *([] if motor_needed is None else [motor_needed.text]),
-            *_hints(field, reason, changes, lightest=lightest),
+            *_hints(problem, reason, changes, lightest=lightest),
         ]
     if refused.for_reserve:
         hints.append("A lower --reliability needs a smaller reserve.")
@@ -242,22 +182,22 @@ def advice_on(
     return refused
 
 
-def _balanced_upset(field: Field) -> Iterator[str]:
+def _balanced_upset(problem: SelectionProblem) -> Iterator[str]:
     """Sentence on the largest upset that the drives can balance, all else as specified."""
-    requirement = field.problem.requirement
+    requirement = problem.requirement
     upset = [maneuver for maneuver in requirement.maneuvers if maneuver.disturbance_text]
 
-    def is_feasible(factor: float) -> bool:
+    def can_balance(factor: float) -> bool:
         milder = requirement.changed(
             lambda maneuver: (
                 maneuver.milder(1.0 / factor) if maneuver.disturbance_text else maneuver
             )
         )
-        return field.with_requirement(milder).possible
+        return is_feasible(replace(problem, requirement=milder))
 
-    if not upset or not is_feasible(LARGEST_FACTOR):
+    if not upset or not can_balance(LARGEST_FACTOR):
         return
-    _, factor = narrowed(is_feasible, 1.0, LARGEST_FACTOR, ADVICE_PRECISION)
+    _, factor = narrowed(can_balance, 1.0, LARGEST_FACTOR, ADVICE_PRECISION)
     text = some_of(
         [
             f"{maneuver.milder(1.0 / factor).disturbance_text} for {maneuver.name}"
@@ -267,39 +207,59 @@ def _balanced_upset(field: Field) -> Iterator[str]:
     yield f"A device exists with {text}."
 
 
-def single_changes(field: Field, progress: Progress = ignore_progress) -> dict[Limit, float]:
+def single_changes(
+    problem: SelectionProblem, progress: Progress = ignore_progress
+) -> dict[Limit, float]:
     """Values of single limits that just make a device feasible, the gentlest change first [SI].
 
     Each is verified by searching for a device again, among all motors and gears of the problem; a
-    change that only an unlikely drive could use may be missed (`Field.possible`).
+    change that only an unlikely drive could use may be missed (`is_feasible`).
     """
     return smallest_changes(
-        limits_of(field.problem),
-        lambda limit, value: field.with_limit(limit, value).possible,
+        limits_of(problem),
+        lambda limit, value: is_feasible(with_limit(problem, limit, value)),
         precision=ADVICE_PRECISION,
         most=lambda limit: _LARGEST_FACTORS.get(limit.name, LARGEST_FACTOR),
-        conceivable=lambda limit, value: field.with_limit(limit, value).conceivable,
+        conceivable=lambda limit, value: is_conceivable(with_limit(problem, limit, value)),
         progress=progress,
     )
 
 
+def _change_text(problem: SelectionProblem, limit: Limit, value: float) -> str:
+    """A change in the user's terms: time is set by each maneuver's own keys.
+
+    More time is advised only for the maneuvers that need it, out of those that this much more time
+    makes feasible together.
+    """
+    if limit is not TIME:
+        return limit.loose_text(value)
+    present = problem.requirement.maneuvers
+    slow = {maneuver.name for maneuver in present}
+    for maneuver in present:
+        names = slow - {maneuver.name}
+        if names and is_feasible(with_time(problem, value, names)):
+            slow = names
+    slower = with_time(problem, value, slow).requirement.maneuvers
+    pairs = zip(present, slower, strict=True)
+    return " together with ".join(change_text(old, new) for old, new in pairs if old is not new)
+
+
 def _hints(
-    field: Field, reason: Reason, changes: Mapping[Limit, float], *, lightest: bool
+    problem: SelectionProblem, reason: Reason, changes: Mapping[Limit, float], *, lightest: bool
 ) -> Iterator[str]:
     """Sentences on changes that would make a device feasible."""
     if changes:
-        texts = [field.change_text(limit, value) for limit, value in changes.items()]
+        texts = [_change_text(problem, limit, value) for limit, value in changes.items()]
         yield advice(texts, "")
-    layout = field.problem.layout
+    layout = problem.layout
     if not layout.pairs and reason is Reason.INCIDENCE:
         yield (
             f"The wheels of {layout.text} cannot turn the robot about every required axis: "
             "require less, or choose another layout (--layout pair)."
         )
         return
-    free = replace(field.problem, incidence=None)
-    specified = layout.pairs and field.problem.incidence is not None
-    if lightest and specified and field.changed(free).possible:
+    specified = layout.pairs and problem.incidence is not None
+    if lightest and specified and is_feasible(replace(problem, incidence=None)):
         yield (
             "Other incidences are feasible: leave out --alpha and choose "
             "--alpha-criterion lightest."
@@ -411,15 +371,15 @@ def needed_motor(problem: SelectionProblem, model: Motor) -> NeededMotor | None:
 
     direct = next((gear for gear in problem.gears if gear.room is None), DIRECT)
 
-    def is_feasible(base: Motor, speed: float, peak: float) -> bool:
+    def would_do(base: Motor, speed: float, peak: float) -> bool:
         motor = _scaled(base, peak, speed, problem.bus_voltage)
-        return Field.of(replace(problem, motors=(motor,), gears=(direct,))).possible
+        return is_feasible(replace(problem, motors=(motor,), gears=(direct,)))
 
     for density_factor in _TORQUE_DENSITY_FACTORS:
         scaled_model, motors = replace(model, peak_torque=density_factor * model.peak_torque), []
         for speed_factor in _SPEED_FACTORS:
             speed = speed_factor * momentum / largest
-            is_enough = partial(is_feasible, scaled_model, speed)
+            is_enough = partial(would_do, scaled_model, speed)
             highest = next(
                 (peak for peak in (torque * _TORQUE_FACTORS).tolist() if is_enough(peak)), None
             )
