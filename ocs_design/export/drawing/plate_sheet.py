@@ -5,9 +5,11 @@ The mast is shown from the left and from behind. All positions are relative to t
 plate's underside.
 """
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import partial
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -22,6 +24,7 @@ from ocs_design.export.drawing.sheet import (
     OUTLINE,
     THIN,
     Anchor,
+    Area,
     Box,
     Circle,
     Item,
@@ -64,6 +67,12 @@ _NAME_INSIDE = 5.0
 
 _CLEARANCE = 0.25
 """Clearance of hole names from lines [mm]."""
+
+_STEP = 0.2
+"""Distance between points along lines, to keep names clear of them [mm]."""
+
+_CROSS = 2.0
+"""Length of centre lines beyond a hole [mm]."""
 
 _VIEW_DISTANCE = 40.0
 """Distance between two views [mm]."""
@@ -175,20 +184,8 @@ def _top_view(plate: CarrierPlate) -> tuple[Scale, list[Item]]:
     corners_on_sheet = [place(float(x), float(y)) for x, y in corners]
     items: list[Item] = [Polyline((*corners_on_sheet, corners_on_sheet[0]), OUTLINE)]
     holes = [(hole.name, place(*hole.at), scale(hole.diameter) / 2.0) for hole in _holes(plate)]
-    angles = np.linspace(0.0, 2.0 * np.pi, 721)
-    circles = [
-        np.array(at) + radius * np.column_stack([np.cos(angles), np.sin(angles)])
-        for _, at, radius in holes
-    ]
-    # Points along all lines, dense enough that no line crosses a word unnoticed [mm].
-    ends = np.array([*corners_on_sheet, corners_on_sheet[0]])
-    steps = np.maximum(1, np.ceil(np.hypot(*np.diff(ends, axis=0).T) / _CLEARANCE)).astype(int)
-    sides = zip(ends, ends[1:], steps.tolist(), strict=False)
-    edge = [np.linspace(start, end, count + 1) for start, end, count in sides]
-    lines = np.concatenate([*edge, *circles])
-    for name, at, radius in holes:
-        items += [Circle(at, radius), *centre_lines(at, radius + 2.0)]
-        items.append(_hole_name(name, at, radius, lines))
+    for _, at, radius in holes:
+        items += [Circle(at, radius), *centre_lines(at, radius + _CROSS)]
     edge_left, edge_right = (place(0.0, float(y))[0] for y in (high[1], low[1]))
     upper, lower = place(float(high[0]), 0.0)[1], place(float(low[0]), 0.0)[1]
     items += [
@@ -200,6 +197,11 @@ def _top_view(plate: CarrierPlate) -> tuple[Scale, list[Item]]:
         Lettering((edge_left - 4.0, middle[1] - 2.0), "y, left", 1.8, Anchor.END),
         *_height_dimension(in_mm(length), edge_right, (upper, lower)),
     ]
+    taken = [_points(item) for item in items]
+    for name, at, radius in holes:
+        label = _hole_name(name, at, radius, np.concatenate(taken))
+        items.append(label)
+        taken.append(_points(label))
     # The edge seen from the front, below the plate in first-angle projection.
     edge_top = lower + 14.0
     edge_bottom = edge_top + scale(thickness)
@@ -211,25 +213,66 @@ def _top_view(plate: CarrierPlate) -> tuple[Scale, list[Item]]:
     return scale, [*items, *_hole_table(plate)]
 
 
-def _hole_name(name: str, at: Point, radius: float, lines: FloatArray) -> Lettering:
-    """Name of a hole, placed beside it clear of lines, or inside a large hole.
+def _points(item: Item) -> FloatArray:
+    """Points along the lines of an item, or in the box of a text, `_STEP` apart [mm], shape (n, 2).
+
+    They are dense enough that no line crosses a name unnoticed.
+    """
+    match item:
+        case Circle((x, y), radius):
+            count = math.ceil(2.0 * math.pi * radius / _STEP)
+            angles = np.linspace(0.0, 2.0 * np.pi, count, endpoint=False)
+            return np.column_stack([x + radius * np.cos(angles), y + radius * np.sin(angles)])
+        case Line(start, end):
+            corners: Sequence[Point] = (start, end)
+        case Polyline(points):
+            corners = points
+        case Area(points):
+            corners = (*points, points[0])
+        case Lettering():
+            x, y = item.start
+            across, down = item.width, item.height
+            if item.upright:
+                across, down, x, y = item.height, item.width, x - item.height, y + item.height
+            grid = np.meshgrid(
+                np.linspace(x, x + across, math.ceil(across / _STEP) + 1),
+                np.linspace(y - down, y, math.ceil(down / _STEP) + 1),
+            )
+            return np.column_stack([axis.ravel() for axis in grid])
+    sides = [
+        np.linspace(start, end, math.ceil(math.dist(start, end) / _STEP) + 1)
+        for start, end in pairwise(corners)
+    ]
+    return np.concatenate(sides)
+
+
+def _hole_name(name: str, at: Point, radius: float, taken: FloatArray) -> Lettering:
+    """Name of a hole, beside it where it covers least of all else, or inside a large hole.
 
     Args:
         name, at, radius: name, position and radius of the hole [mm].
-        lines: points of all lines [mm], shape (n, 2).
+        taken: points of all lines and texts [mm], shape (n, 2).
     """
-    offset, height = (1.0 if radius > _NAME_INSIDE else radius + 0.8), 1.8
-    label = Lettering((at[0] + offset, at[1] - offset), name, height)
-    for right, up in ((1.0, 1.0), (-1.0, 1.0), (1.0, -1.0), (-1.0, -1.0)):
-        x = at[0] + offset if right > 0.0 else at[0] - offset - label.width
-        y = at[1] - offset if up > 0.0 else at[1] + offset + height
-        low, top = (
-            np.array([x, y - height]) - _CLEARANCE,
-            np.array([x + label.width, y]) + _CLEARANCE,
-        )
-        if not ((lines >= low) & (lines <= top)).all(axis=1).any():
-            return replace(label, place=(x, y))
-    return label
+    near = 1.0 if radius > _NAME_INSIDE else radius + 0.8
+    label = Lettering(at, name, 1.8)
+    best, least = label, math.inf
+    for farther in (0.0, 1.0, 2.0):
+        aside, level = near + farther, radius + _CROSS + 0.8 + farther
+        # Around the hole, counted from its middle to the middle of the name: in the quadrants of
+        # its centre lines, then beyond their ends.
+        diagonal = aside + label.width / 2.0, aside + label.height / 2.0
+        ends = (level + label.width / 2.0, 0.0), (0.0, level + label.height / 2.0)
+        offsets = [(side * diagonal[0], up * diagonal[1]) for up in (-1, 1) for side in (1, -1)]
+        if radius <= _NAME_INSIDE:
+            offsets += [(side * x, side * y) for x, y in ends for side in (1, -1)]
+        for across, down in offsets:
+            corner = at[0] + across - label.width / 2.0, at[1] + down + label.height / 2.0
+            low = np.array([corner[0], corner[1] - label.height]) - _CLEARANCE
+            high = np.array([corner[0] + label.width, corner[1]]) + _CLEARANCE
+            covered = int(((taken >= low) & (taken <= high)).all(axis=1).sum())
+            if covered < least:
+                best, least = replace(label, place=corner), covered
+    return best
 
 
 def _hole_table(plate: CarrierPlate) -> Iterator[Item]:
