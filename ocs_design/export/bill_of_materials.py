@@ -149,9 +149,12 @@ def _support_rows(device: Device) -> Iterator[BillRow]:
     """Supports of the feet: plate, mast and sleeves, or pedestals, each with its screws."""
     plate = device.plate
     if plate is not None:
-        material, size = plate.material, " x ".join(map(_mm, plate.sizes))
+        length, width, thickness = plate.sizes
+        material = plate.material
+        size = f"plate {_mm(thickness)}, at least {_least(length)} x {_least(width)}"
+        sheets = ", a sheet for each kind" if len(plate.kinds) > 1 else ""
         remark = (
-            "milled or cut by water jet to plate.pdf (outline: `export --formats dxf`), "
+            f"milled or cut by water jet to plate.pdf{sheets} (outline: `export --formats dxf`), "
             f"neck {_mm(2.0 * plate.neck)}; "
             f"{len(plate.feet) // len(plate.rows)} threads {plate.foot_thread} for the feet"
         )
@@ -160,7 +163,8 @@ def _support_rows(device: Device) -> Iterator[BillRow]:
             "plate under the feet", len(plate.rows), material, size, mass, remark, piece="plate"
         )
         mast, support = plate.mast, "plate"
-        tube = f"tube {_mm(2.0 * plate.sleeve_radius)} x {_mm(plate.sleeve_wall)} wall"
+        across, wall = _mm(2.0 * plate.sleeve_radius), _mm(plate.sleeve_wall)
+        tube = f"tube {across} x {wall} wall, or turned from bar"
         if mast is not None:
             stock, support = f"square tube {_mm(mast.side)} x {_mm(mast.wall)}", "mast"
             flat = mast.spacer > 0.0 and not mast.formed
@@ -360,13 +364,17 @@ def _web_text(web: Web) -> str:
 
 def _stock(outer_radius: float, inner_radius: float, length: float) -> str:
     """Ring for a bore of more than half the diameter, else a bar; whole millimetres."""
-    # Rounded first, so that rounding errors do not add a millimetre.
-    outside = math.ceil(round(1e3 * (2.0 * outer_radius + _ALLOWANCE), 6))
-    cut = math.ceil(round(1e3 * (length + _ALLOWANCE), 6))
+    outside, cut = _least(2.0 * outer_radius), _least(length)
     if inner_radius <= 0.5 * outer_radius:
         return f"round bar, at least {outside} x {cut}"
     inside = math.floor(round(1e3 * (2.0 * inner_radius - _ALLOWANCE), 6))
     return f"tube or plate, at least {outside} x {cut}, at most {inside} inside"
+
+
+def _least(size: float) -> int:
+    """Least size of stock for a finished size [m], in whole millimetres."""
+    # Rounded first, so that rounding errors do not add a millimetre.
+    return math.ceil(round(1e3 * (size + _ALLOWANCE), 6))
 
 
 def _grams(mass: float) -> str:

@@ -236,6 +236,16 @@ class CarrierPlate:
         )
 
     @property
+    def kinds(self) -> tuple[tuple[int, ...], ...]:
+        """Indices of the plates of each kind, which have equal holes and sleeves."""
+        kinds: dict[object, list[int]] = {}
+        for index, plate in enumerate(self.single_plates):
+            # To the micrometre, so that equal plates compare equal.
+            holes = np.round((*plate.feet, *plate.trunk), 6)
+            kinds.setdefault((holes.tobytes(), plate.sleeves), []).append(index)
+        return tuple(map(tuple, kinds.values()))
+
+    @property
     def heights(self) -> tuple[float, ...]:
         """Height of the underside of each plate above the common one [m]."""
         return self.levels or (0.0,) * len(self.rows)

@@ -1,7 +1,7 @@
 """Assembly steps, in the order of the work."""
 
 from collections.abc import Iterator, Sequence
-from math import sqrt
+from math import ceil, sqrt
 
 import numpy as np
 
@@ -44,6 +44,7 @@ from ocs_design.parts.printed import (
     PANEL,
     SHOCK,
     TRUNK_SCREW,
+    WASHER_ACROSS,
     WASHER_HEIGHT,
 )
 
@@ -153,7 +154,8 @@ def module_steps(assembly: Assembly) -> Iterator[str]:
             milled = " The foot is milled instead (see Before you start)."
         yield (
             f"Print drum, lid{', foot and cage' if caged else ' and foot'} in PETG, oriented as "
-            "in cad/housing.3mf, one of each, arranged on your bed by the slicer: 0.2 mm layers, "
+            "in cad/housing.3mf, one of each, arranged by the slicer on your bed of at least "
+            f"{ceil(2e3 * foot_of(device).housing.radius)} mm: 0.2 mm layers, "
             f"100 % infill (strength and masses assume solid parts), {supports}.{milled} Tap the "
             "ears of "
             f"{'drum and cage' if caged else 'the drum'} {LID_SCREW.name}."
@@ -371,15 +373,24 @@ def _trunk_steps(assembly: Assembly) -> Iterator[str]:
 def _plate_steps(assembly: Assembly, plate: CarrierPlate, holes: str) -> Iterator[str]:
     """Steps to make and mount plate, mast and sleeves; `holes` describes those for the feet."""
     through = f"holes of {1e3 * plate.screw.clearance_hole:g} mm for the trunk's screws, and "
+    count, numbered = len(plate.rows), assembly.number("plate")
+    what, own, each = f"the plate{numbered}", "its", "the plate"
+    if count > 1:
+        what, own, each = f"the {count} plates{numbered}", "their", "each plate"
+    sheets = ", which has a sheet for each kind" if len(plate.kinds) > 1 else ""
     cut = (
-        f"Make the plate{assembly.number('plate')} to cad/plate.pdf (`export --formats dxf` writes "
-        f"its outline for a cutter), with {through if plate.mast is None else ''}threads "
+        f"Make {what} to cad/plate.pdf{sheets} (`export --formats dxf` writes {own} outline for a "
+        f"cutter), with {through if plate.mast is None else ''}threads "
         f"{plate.foot_thread} for the feet, {holes}. Drill and tap the trunk"
     )
     if plate.mast is None:
+        room = (plate.screw.clearance_hole - plate.screw.diameter) / 2.0
         yield (
-            f"{cut} {plate.thread} under its other {len(plate.trunk)} holes "
-            "(cad/drilling.pdf, printed at 100 %, which says how deep)."
+            f"{cut} {plate.thread} under {own} other {len(plate.trunk)} holes "
+            "(cad/drilling.pdf, printed at 100 %, which says how deep). Drill one of the holes of "
+            f"{each} by the template, screw it on there, turn it to the other crosses and spot "
+            f"them through it: its holes leave {1e3 * room:.2g} mm around the screws, and paper is "
+            "less exact."
         )
     else:
         yield (
@@ -464,7 +475,8 @@ def _turning_step(assembly: Assembly, standing: Sequence[str]) -> str:
         f"eye to a degree.{_marks_apart(assembly.device, modules)} Tighten {fastening.count} x "
         f"{fastening.designation}{assembly.number(fastening)}{tightened_screws.with_washers}, with "
         f"{significant(tightened_screws.torque, 2)} N m each, into {into}."
-        f"{_under_motor(assembly, tightened_screws)}{pinned}"
+        f"{_under_motor(assembly, tightened_screws)}{_beside_stem(assembly, tightened_screws)}"
+        f"{pinned}"
     )
 
 
@@ -588,6 +600,25 @@ def _under_motor(assembly: Assembly, tightened_screws: Tightened) -> str:
     )
 
 
+def _beside_stem(assembly: Assembly, tightened_screws: Tightened) -> str:
+    """How a washer under the motor fits beside the foot's stem; empty if there is room for it.
+
+    Stems are made clear of the screws' heads, and a washer at the end of a slot is wider.
+    """
+    foot, radius = foot_of(assembly.device), WASHER_ACROSS / 2.0
+    rooms = [
+        -along - foot.back
+        for along, across in _screws_aside(assembly.device)
+        if along < 0.0 and abs(across) < foot.stem + radius
+    ]
+    if not tightened_screws.washers or min(rooms, default=radius) >= radius:
+        return ""
+    return (
+        " File a side of its washer flat: the foot's stem is "
+        f"{1e3 * min(rooms):.1f} mm from the middle of the screw, less than a wide washer."
+    )
+
+
 def _pedestal_steps(assembly: Assembly) -> Iterator[str]:
     """Steps to mount the pedestals on the trunk, and the leaning feet on them."""
     kinds = pedestal_kinds(assembly.device)
@@ -611,5 +642,5 @@ def _pedestal_steps(assembly: Assembly) -> Iterator[str]:
             f"Scribe a line across each seat, {middles} up from its low end, put the foot's "
             "middle on it with the wheel's axis along the seat, and turn the foot until the "
             f"line meets the scale at 0 deg. {assembly.screwed(seated.fastening)}"
-            f"{_under_motor(assembly, seated)}"
+            f"{_under_motor(assembly, seated)}{_beside_stem(assembly, seated)}"
         )

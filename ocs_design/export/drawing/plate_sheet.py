@@ -86,17 +86,12 @@ def plate_sheets(device: Device, robot: str, refused: str = "") -> list[list[Ite
     plate = device.plate
     if plate is None:
         return []
-    equal_plates: dict[object, list[int]] = {}
-    for index, one_plate in enumerate(plate.single_plates):
-        equal_plates.setdefault(
-            (_rounded(one_plate.feet), _rounded(one_plate.trunk), one_plate.sleeves), []
-        ).append(index)
-    count = len(equal_plates) + (plate.mast is not None)
+    count = len(plate.kinds) + (plate.mast is not None)
     entries_of = partial(
         Entries, robot=robot, material=plate.material, identity=device_hash(device)
     )
     sheets = []
-    for number, indices in enumerate(equal_plates.values(), start=1):
+    for number, indices in enumerate(plate.kinds, start=1):
         sample = plate.single_plates[indices[0]]
         scale, view = _top_view(sample)
         entries = entries_of(
@@ -122,11 +117,6 @@ def plate_sheets(device: Device, robot: str, refused: str = "") -> list[list[Ite
         )
         sheets.append(complete_sheet(view, _mast_notes(plate, mast), entries, refused))
     return sheets
-
-
-def _rounded(holes: tuple[Point, ...]) -> tuple[Point, ...]:
-    """Positions rounded to the micrometre, so that equal plates compare equal."""
-    return tuple((round(x, 6), round(y, 6)) for x, y in holes)
 
 
 def _title(plate: CarrierPlate, indices: Sequence[int]) -> str:

@@ -177,7 +177,9 @@ def notes(drawing: WheelDrawing) -> Iterator[str]:
             f"Material with a yield strength of at least {drawing.yield_strength / 1e6:.0f}~MPa, "
             "as assumed in sizing."
         )
-    run_out = f"Run-out of the rim, around and on its faces, to the bore at most {RUN_OUT:g}."
+    # Screws clamp a hub by its faces, and a short bore alone does not say where the axis points.
+    datum = "the bore" if web is None or web.hub.bolts == 0 else "bore and hub faces"
+    run_out = f"Run-out of the rim, around and on its faces, to {datum} at most {RUN_OUT:g}."
     if drawing.bonded:
         gap = in_mm(2.0 * GLUE_GAP)
         size = in_mm(2.0 * (wheel.rim.inner_radius - GLUE_GAP))

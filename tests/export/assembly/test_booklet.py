@@ -17,7 +17,7 @@ from ocs_design.actuation.supply import Supply
 from ocs_design.catalogue.materials import materials
 from ocs_design.common.units import rpm
 from ocs_design.device.bodies import carrier_placement, wheel_placement
-from ocs_design.device.joints import balance_of, burst_of, rim_fit, yield_margin
+from ocs_design.device.joints import balance_of, burst_of, foot_hold, rim_fit, yield_margin
 from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.device.records.device import Margin
 from ocs_design.device.resonances import resonances_of
@@ -188,6 +188,44 @@ def test_the_plate_is_under_the_foot_with_its_screws_and_sleeves():
     text = texts(assembly, "Steps")
     assert "4.50 mm at" in text
     assert "into the threads of the plate" in text
+    assert "its holes leave 0.2 mm around the screws, and paper is less exact" in text
+
+
+@pytest.mark.parametrize("inwards", [0.0, 0.008])
+def test_all_plates_are_made_each_to_its_sheet(inwards):
+    """Once the booklet had one plate made, as on ANYmal C, whose front and rear plates differ."""
+    device = DEVICES["on a plate"]
+    plate, front, rear = device.plate, 0.1, -0.1
+    twice = replace(
+        plate,
+        rows=(front, rear),
+        feet=tuple((x + row, y) for row in (front, rear) for x, y in plate.feet),
+        trunk=tuple((x + front, y) for x, y in plate.trunk)
+        + tuple((x + rear, y + inwards * np.sign(y)) for x, y in plate.trunk),
+        sleeves=plate.sleeves * 2,
+    )
+    both = replace(device, plate=twice)
+    text = texts(Assembly("anymal", both), "Steps")
+    assert re.search(r"Make the 2 plates \(\d+\) to cad/plate\.pdf", text)
+    assert "under their other 8 holes" in text
+    assert "Drill one of the holes of each plate by the template" in text
+    row = next(row for row in bill_rows(both) if row.piece == "plate")
+    assert row.quantity == 2
+    for words in (text, row.remark):
+        assert ("a sheet for each kind" in words) == bool(inwards)
+
+
+@pytest.mark.parametrize(("angle", "filed"), [(0.0, True), (10.0, False)])
+def test_a_washer_at_the_end_of_a_slot_is_filed_where_it_meets_the_stem(angle, filed):
+    """Slots are made for heads of 5.5 mm with 1.6 mm around them; a washer is up to 9 mm wide."""
+    device = DEVICES["on a plate"].at_incidence(np.radians(angle))
+    motor = replace(device.motor, mass=1.5)
+    heavy = replace(device, motor=motor, carrier=replace(device.carrier, mass=1.6))
+    assert foot_hold(heavy).washers
+    text = texts(Assembly("dog", heavy), "Steps")
+    assert ("File a side of its washer flat: the foot's stem is 4.3" in text) == filed
+    light = texts(Assembly("dog", device), "Steps")
+    assert "washer flat" not in light
 
 
 def test_exploded_pieces_do_not_touch():
