@@ -45,6 +45,7 @@ WHEEL = WheelDrawing(
     robot="solo12",
     identity="an example",
     speed=750.0,
+    count=2,
 )
 """An example that shows everything a sheet has."""
 

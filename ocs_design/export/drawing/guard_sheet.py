@@ -26,7 +26,12 @@ from ocs_design.export.drawing.sheet import (
     vertical_dimension,
     viewing_arrow,
 )
-from ocs_design.export.drawing.title_block import Entries, complete_sheet, device_hash
+from ocs_design.export.drawing.title_block import (
+    Entries,
+    complete_sheet,
+    device_hash,
+    title_of,
+)
 from ocs_design.export.drawing.views import (
     CHAMFER_ASIDE,
     CHAMFER_BELOW,
@@ -59,12 +64,12 @@ def guard_sheet(device: Device, robot: str, refused: str = "") -> list[Item]:
     """
     if not device.guard_wall:
         return []
-    housing, count = foot_of(device).housing, len(device.modules)
+    housing = foot_of(device).housing
     inside = housing.guard_radius
     ring = Rim(inside, inside + device.guard_wall, housing.guard_height, RING_STEEL, STEEL)
     layout = lay_out(Wheel(ring))
     entries = Entries(
-        title="Guard ring" + (f", {count} off" if count > 1 else ""),
+        title=title_of("Guard ring", len(device.modules)),
         robot=robot,
         scale=layout.scale,
         material=RING_STEEL,

@@ -43,7 +43,12 @@ from ocs_design.export.drawing.sheet import (
     rectangle,
     vertical_dimension,
 )
-from ocs_design.export.drawing.title_block import Entries, complete_sheet, device_hash
+from ocs_design.export.drawing.title_block import (
+    Entries,
+    complete_sheet,
+    device_hash,
+    title_of,
+)
 from ocs_design.export.drawing.wheel import in_mm
 from ocs_design.parts.carrier_plate import CarrierPlate, Mast, mast_part, plate_part
 from ocs_design.parts.dog_bone import directions
@@ -122,7 +127,7 @@ def plate_sheets(device: Device, robot: str, refused: str = "") -> list[list[Ite
 def _title(plate: CarrierPlate, indices: Sequence[int]) -> str:
     """Title of a sheet: its plates by their place on the robot, and their number."""
     if len(indices) == len(plate.rows):
-        return "Plate under the feet" + (f", {len(indices)} off" if len(indices) > 1 else "")
+        return title_of("Plate under the feet", len(indices))
     front_first = sorted(range(len(plate.rows)), key=lambda index: -plate.rows[index])
     places = sorted(front_first.index(index) + 1 for index in indices)
     if len(plate.rows) == 2:

@@ -73,6 +73,11 @@ def device_hash(device: Device) -> str:
     return hashlib.sha256(content).hexdigest()[:DIGITS]
 
 
+def title_of(part: str, count: int) -> str:
+    """Title of the sheet of a part, with the number of them to make if there are several."""
+    return f"{part}, {count} off" if count > 1 else part
+
+
 def frame() -> list[Item]:
     """Frame around the drawing, with a mark at the middle of each side."""
     left, top, right, bottom = FRAME_BOX

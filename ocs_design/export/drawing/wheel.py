@@ -37,6 +37,7 @@ class WheelDrawing:
         on_shaft: whether the motor's shaft, which the hub's bore fits, is known.
         yield_strength: yield strength of the rim's material used in sizing [Pa]; None: not known.
         refused: that the device cannot be built, and why; empty if nothing known prevents it.
+        count: number of equal wheels.
     """
 
     wheel: Wheel
@@ -48,6 +49,7 @@ class WheelDrawing:
     on_shaft: bool = False
     yield_strength: float | None = None
     refused: str = ""
+    count: int = 1
 
     @cached_property
     def masses(self) -> tuple[float, ...]:

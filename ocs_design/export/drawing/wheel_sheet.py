@@ -27,6 +27,7 @@ from ocs_design.export.drawing.title_block import (
     Entries,
     complete_sheet,
     device_hash,
+    title_of,
 )
 from ocs_design.export.drawing.views import front_view, lay_out, section_view
 from ocs_design.export.drawing.wheel import (
@@ -94,6 +95,7 @@ def wheel_drawing(device: Device, robot: str, refused: str = "") -> WheelDrawing
         on_shaft=mounting is not None and mounting.shaft_diameter is not None,
         yield_strength=None if material is None else material.yield_strength,
         refused=refused,
+        count=len(device.modules),
     )
 
 
@@ -103,7 +105,7 @@ def wheel_sheet(drawing: WheelDrawing) -> list[Item]:
     fine = "all fits" if wheel.shrunk_on else "bore"
     inertia = f"{significant(1e6 * drawing.mass_properties.inertia[2, 2], 4)} kg mm²"
     entries = Entries(
-        "OCS flywheel",
+        title_of("OCS flywheel", drawing.count),
         drawing.robot,
         layout.scale,
         "see list of parts" if wheel.shrunk_on else wheel.rim.material,

@@ -99,6 +99,19 @@ def test_every_size_and_hole_is_written_once(drawing, once, notes):
     assert set(notes) <= set(written)
 
 
+def test_the_title_has_the_number_of_wheels_to_make():
+    assert "OCS flywheel, 2 off" in words(wheel_drawing(DEVICES["caged"], "dog"))
+    assert "OCS flywheel" in words(FLAT)
+
+
+@pytest.mark.parametrize(
+    ("name", "datum"), [("caged", "bore and hub faces"), ("by its face", "the bore")]
+)
+def test_hub_faces_are_a_datum_where_screws_clamp_them(name, datum):
+    notes = " ".join(words(wheel_drawing(DEVICES[name], "dog")))
+    assert f"Run-out of the rim, around and on its faces, to {datum} at most 0.05." in notes
+
+
 def test_the_dimension_of_the_web_is_clear_of_its_holes():
     holes, layout = HOLED.wheel.web.holes, lay_out(HOLED.wheel)
     view = section_view(HOLED.wheel, layout)
