@@ -22,9 +22,8 @@ from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.sweep import Task
 from ocs_design.requirement.turns import Drop, Flip
 from ocs_design.robot.reader import read_robot
-from ocs_design.sizing.selection.device import with_demands
 from ocs_design.sizing.selection.problem import SelectionProblem
-from ocs_design.sizing.selection.select import select
+from ocs_design.sizing.selection.select import select, with_demands
 from ocs_design.sizing.specified import selection_problem
 from ocs_design.sizing.trajectory.co_design import co_design
 

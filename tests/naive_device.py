@@ -73,7 +73,7 @@ class Drive:
         # The rotor turns at N W, in the opposite direction if the gear reverses.
         self.rotor_momentum = gear.ratio * rotor * (-1.0 if gear.reverses else 1.0)
         self.rotor_load = gear.ratio**2 * rotor + gear.inertia
-        voltage, k_t = problem.bus_voltage, motor.torque_constant
+        voltage, k_t = problem.supply.voltage, motor.torque_constant
         free = voltage / k_t / gear.ratio
         mechanical = min(
             min(speed_limit(motor), gear.motor_speed_max) / gear.ratio,

@@ -14,10 +14,9 @@ from ocs_design.requirement.requirement import Requirement
 from ocs_design.requirement.turns import Drop, Flip
 from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.place import Place
-from ocs_design.sizing.selection.device import with_demands
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.search import search
-from ocs_design.sizing.selection.select import select
+from ocs_design.sizing.selection.select import select, with_demands
 
 ALUMINIUM = Material(
     name="aluminium", density=2700.0, yield_strength=250e6, ultimate_strength=300e6,

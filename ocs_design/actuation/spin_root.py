@@ -11,10 +11,8 @@ Newton's method on it climbs, without overshooting, from the least h that speed 
 the smallest root. It is bracketed nevertheless, by the largest h below and the smallest above.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
-from math import prod
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,8 +22,6 @@ from ocs_design.common.arrays import FloatArray, Table
 
 _STEPS = 80
 _DIGITS = 1e-14
-# Number of lanes processed at once: few enough for the processor's cache.
-_BLOCK = 32768
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,36 +99,17 @@ def newton_step(
         return np.where(ahead, spin_inertia / (1.0 - gain), np.inf)
 
 
-def smallest_roots(demands: Sequence[SweepDemand]) -> list[FloatArray]:
-    """The smallest spin inertia that meets each demand [kg m^2]; inf where none does.
-
-    All are solved at once: for few demands, a NumPy call costs more than its work.
-    """
-    drive_fields = [field.name for field in fields(UnitDrive)]
-    demand_fields = [field.name for field in fields(SweepDemand) if field.name != "drive"]
-    shapes, columns = [], []
-    for demand in demands:
-        drive = [getattr(demand.drive, name) for name in drive_fields]
-        parts = np.broadcast_arrays(*(getattr(demand, name) for name in demand_fields), *drive)
-        shapes.append(parts[0].shape)
-        columns.append([part.reshape(-1) for part in parts])
-    flat = [np.concatenate(parts) for parts in zip(*columns, strict=True)]
-    drives = UnitDrive(**dict(zip(drive_fields, flat[len(demand_fields) :], strict=True)))
-    all_demands = SweepDemand(
-        **dict(zip(demand_fields, flat[: len(demand_fields)], strict=True)), drive=drives
-    )
-    answer = np.empty(all_demands.sweep.size)
-    for start in range(0, answer.size, _BLOCK):
-        block = slice(start, start + _BLOCK)
-        answer[block] = _roots(all_demands.take(block))
-    ends = np.cumsum([prod(shape) for shape in shapes])[:-1]
-    answers = zip(np.split(answer, ends), shapes, strict=True)
-    return [part.reshape(shape) for part, shape in answers]
-
-
-def _roots(demand: SweepDemand) -> FloatArray:
-    """Smallest root of each demand of one block [kg m^2], shape (n,)."""
-    drive, high = demand.drive, 1.0 / (2.0 * demand.coupling)
+def smallest_root(demand: SweepDemand) -> FloatArray:
+    """The smallest spin inertia that meets the demand [kg m^2]; inf where none does."""
+    names = [field.name for field in fields(demand) if field.name != "drive"]
+    values = [getattr(demand, name) for name in names]
+    values += [getattr(demand.drive, field.name) for field in fields(demand.drive)]
+    parts = np.broadcast_arrays(*values)
+    flat = [part.reshape(-1) for part in parts]
+    columns: dict[str, Any] = dict(zip(names, flat, strict=False))
+    drive = UnitDrive(*flat[len(names) :])
+    demand = replace(demand, **columns, drive=drive)
+    high = 1.0 / (2.0 * demand.coupling)
 
     # Below this h the speed alone is too low, or there is nothing to accelerate.
     gain = (drive.highest - drive.initial_speed) * drive.no_load_speed
@@ -153,7 +130,7 @@ def _roots(demand: SweepDemand) -> FloatArray:
             break
         search = search.advance(answer)
     answer[search.lane] = search.h
-    return answer
+    return answer.reshape(parts[0].shape)
 
 
 @dataclass(frozen=True, eq=False)

@@ -32,7 +32,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ocs_design.actuation.drive import DriveLine
 from ocs_design.actuation.slew import slew_time
-from ocs_design.actuation.spin_root import SweepDemand, smallest_roots
+from ocs_design.actuation.spin_root import SweepDemand, smallest_root
 from ocs_design.actuation.tilt_inertia import OUT_OF_REACH, TiltInertia
 from ocs_design.actuation.unit_drive import UnitDrive, positive
 from ocs_design.common.arrays import FloatArray
@@ -384,7 +384,7 @@ def smallest_spin_inertia(
         line: of the drive at the wheel, shape (...).
         armature: I_m - h [kg m^2], shape (...).
     """
-    return smallest_roots([spin_demand(task, line, armature)])[0]
+    return smallest_root(spin_demand(task, line, armature))
 
 
 def spin_demand(

@@ -372,7 +372,7 @@ def needed_motor(problem: SelectionProblem, model: Motor) -> NeededMotor | None:
     direct = next((gear for gear in problem.gears if gear.room is None), DIRECT)
 
     def would_do(base: Motor, speed: float, peak: float) -> bool:
-        motor = _scaled(base, peak, speed, problem.bus_voltage)
+        motor = _scaled(base, peak, speed, problem.supply.voltage)
         return is_feasible(replace(problem, motors=(motor,), gears=(direct,)))
 
     for density_factor in _TORQUE_DENSITY_FACTORS:
@@ -389,7 +389,7 @@ def needed_motor(problem: SelectionProblem, model: Motor) -> NeededMotor | None:
                 )
                 mass = model.mass * peak / (density_factor * model.peak_torque)
                 heavier = model.name if density_factor > 1.0 else ""
-                motors.append(NeededMotor(peak, speed, mass, problem.bus_voltage, heavier))
+                motors.append(NeededMotor(peak, speed, mass, problem.supply.voltage, heavier))
         weakest = min((motor.peak_torque for motor in motors), default=0.0)
         for motor in motors:
             if motor.peak_torque <= _SIMILAR_TORQUE * weakest:

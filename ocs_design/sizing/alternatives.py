@@ -189,7 +189,7 @@ class Variant:
         if device.material != self.choice.chosen.material:
             yield device.material.name
         rated = device.motor.rated_voltage
-        if rated is not None and self.problem.bus_voltage > _OVERVOLTAGE_NOTED * rated:
+        if rated is not None and self.problem.supply.voltage > _OVERVOLTAGE_NOTED * rated:
             yield f"the motor is rated for {rated:g} V"
         missing = build_gaps(device.motor)
         if missing:

@@ -12,7 +12,7 @@ from ocs_design.requirement.vocabulary import DETECTION
 from ocs_design.requirement.writing import specification_to_toml, with_absolute_files
 from ocs_design.sizing.limits import Progress, ignore_progress
 from ocs_design.sizing.mounting import mounting_of, mounting_open_points
-from ocs_design.sizing.selection.device import maneuvers_survived
+from ocs_design.sizing.selection.select import maneuvers_survived
 from ocs_design.sizing.sized import Designed
 
 Choose = Callable[[Task], FrontDevice]

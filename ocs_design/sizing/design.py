@@ -20,17 +20,15 @@ from ocs_design.requirement.vocabulary import CONTAINING, LIGHTEST, MORE_PAIRS, 
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.surface import trunk_surface
 from ocs_design.sizing.assembly import assemble, assemble_selected
-from ocs_design.sizing.bound.device_problem import DeviceProblem
-from ocs_design.sizing.bound.device_sizing import size_device
+from ocs_design.sizing.bound.device_sizing import DeviceProblem, size_device
 from ocs_design.sizing.footing.feet import FailedSearches
 from ocs_design.sizing.footing.standing import standing_on
 from ocs_design.sizing.free_place import specified_place
 from ocs_design.sizing.limits import DEVICE_MASS, Progress
 from ocs_design.sizing.on_robot import OnRobot
 from ocs_design.sizing.reserve import Reserve, SampledErrors, reserve_record
-from ocs_design.sizing.selection.device import with_demands
 from ocs_design.sizing.selection.problem import Candidate, SelectionProblem
-from ocs_design.sizing.selection.select import device_at
+from ocs_design.sizing.selection.select import device_at, with_demands
 from ocs_design.sizing.sized import Designed, DriveChoice, sized_by_bound, sized_selection
 from ocs_design.sizing.specified import require_survival, selection_problem, specified_criterion
 

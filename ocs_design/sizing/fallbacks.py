@@ -6,7 +6,6 @@ Only unspecified values change, and only as far as the specified ones allow.
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from ocs_design.common.units import format_quantity
 from ocs_design.device.device import Device
 from ocs_design.requirement.checks import contradictions
 from ocs_design.requirement.specification import Specification
@@ -38,16 +37,6 @@ class Attempt:
     specification: Specification
     reason: str
     error: Refused | NoMountHolds | None = None
-
-    @classmethod
-    def refused(cls, specification: Specification, error: Refused | NoMountHolds) -> "Attempt":
-        """An attempt that gave no device."""
-        return cls(specification, error.message, error)
-
-    @classmethod
-    def outweighed(cls, specification: Specification, device: Device) -> "Attempt":
-        """An attempt whose device is heavier than another."""
-        return cls(specification, f"{format_quantity(device.mass, 'kg', digits=4)}.")
 
 
 def attempts(specification: Specification) -> Iterator[Specification]:

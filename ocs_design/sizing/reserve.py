@@ -205,7 +205,9 @@ def reserve_record(
     }
     reliability = reserve.reliability
     present_mass = curve[reliability] if reliability in curve else resized(reserve.covering(needs))
-    known = {key: errors.with_known(key).needs(problem, device, reserve) for key in _RELEVANT_KEYS}
+    known = {
+        key: replace(errors, known=key).needs(problem, device, reserve) for key in _RELEVANT_KEYS
+    }
     level = max(reserve.reliability, RELIABILITY)
     reductions = {
         key: max(needs.log_factor(level) - without.log_factor(level), 0.0)
@@ -261,7 +263,7 @@ class SampledErrors:
         trunk: second moments of the trunk's mass along x, y and z [kg m^2], shape (3,).
         pushes_off: whether jumps start on the ground.
         flight: flight time relative to a rigid robot's.
-        known: keys that are measured, so always at their mean.
+        known: key of a quantity that is measured, so always at its mean; empty: none.
     """
 
     specified: UncertaintySection
@@ -269,7 +271,7 @@ class SampledErrors:
     trunk: FloatArray
     pushes_off: bool
     flight: float
-    known: frozenset[str] = frozenset()
+    known: str = ""
 
     @classmethod
     def of(
@@ -283,13 +285,9 @@ class SampledErrors:
         legs = 0 if ballistic else len(robot.legs)
         return cls(specified, height, moments, legs > 0, FLIGHT_RATIO if legs > 3 else 1.0)
 
-    def with_known(self, key: str) -> "SampledErrors":
-        """Errors of robots of which this quantity is known, so always at its mean."""
-        return replace(self, known=self.known | {key})
-
     def drawn(self, problem: SelectionProblem, device: Candidate) -> Mapping[str, FloatArray]:
         """Sampled values of each key, strata in random order, shape (robots, parts)."""
-        motor = Drive.of(device.motor, device.gear, problem.bus_voltage)
+        motor = Drive.of(device.motor, device.gear, problem.supply.voltage)
         spreads = complete_uncertainty(self.specified, self.height, motor)
         random = np.random.Generator(np.random.Philox(key=_SEED))
         strata, values_by_key = (np.arange(SAMPLES_DRAWN) + 0.5) / SAMPLES_DRAWN, {}
@@ -299,7 +297,7 @@ class SampledErrors:
             scores = np.stack([random.permutation(strata) for _ in parts], axis=1)
             values = np.interp(scores, _KNOTS, knots)
             values_by_key[key] = (
-                np.full_like(values, values.mean()) if key in self.known else values
+                np.full_like(values, values.mean()) if key == self.known else values
             )
         return values_by_key
 

@@ -15,8 +15,7 @@ from ocs_design.device.records.selection import CoDesignRecord, ReserveRecord, S
 from ocs_design.requirement.bound import AXES, SpinDemand, rate_momenta
 from ocs_design.requirement.requirement import Requirement
 from ocs_design.robot.mass import MassProperties
-from ocs_design.sizing.bound.device_problem import design_momenta
-from ocs_design.sizing.bound.device_sizing import DeviceSizing
+from ocs_design.sizing.bound.device_sizing import DeviceSizing, design_momenta
 from ocs_design.sizing.bound.rim_problem import RimProblem
 from ocs_design.sizing.lightest_module import lightest_module
 from ocs_design.sizing.limits import RIM_LIMITS, STRESS

@@ -53,7 +53,7 @@ def record_selection(choice: DriveChoice, reserve: ReserveRecord | None = None) 
     """Record of how motor, gear, material and incidence were chosen."""
     problem, chosen, selection = choice.problem, choice.chosen, choice.selection
     return SelectionRecord(
-        bus_voltage=problem.bus_voltage,
+        bus_voltage=problem.supply.voltage,
         reserve=RESERVE,
         candidates=selection.candidates,
         binding_maneuver=chosen.binding_maneuver,

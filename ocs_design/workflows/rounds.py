@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ocs_design.common.errors import Infeasible, SpecificationError, UsageError
+from ocs_design.common.units import format_quantity
 from ocs_design.device.answers import CERTIFICATE_FOLDER, MonteCarloRecord
 from ocs_design.device.checks import device_warnings
 from ocs_design.device.records.flights import Conclusion, SurvivalRecord
@@ -251,7 +252,7 @@ def _lightest_attempt(
                 # A device that is replaced by a lighter one need not be free of warnings.
                 placed = size_on_robot(attempt, robot, strict=False)
             except (Refused, NoMountHolds) as error:
-                tried.append(Attempt.refused(attempt, error))
+                tried.append(Attempt(attempt, error.message, error))
                 step.note = "nothing meets the specification"
                 continue
             except CannotSurvive as error:
@@ -269,7 +270,8 @@ def _lightest_attempt(
             best, heavier = sorted(
                 (best, placed), key=lambda candidate: candidate.designed.device.mass
             )
-            tried.append(Attempt.outweighed(heavier.specification, heavier.designed.device))
+            mass = format_quantity(heavier.designed.device.mass, "kg", digits=4)
+            tried.append(Attempt(heavier.specification, f"{mass}."))
             heavier.cancel()
         if best is not placed or not more_wheels_may_do(best.designed.device, robot.mass):
             break

@@ -12,7 +12,7 @@ from scipy.optimize import brentq, linprog
 
 from ocs_design.actuation.drive import DriveLine
 from ocs_design.actuation.slew import slew_profile
-from ocs_design.actuation.spin_root import smallest_roots
+from ocs_design.actuation.spin_root import smallest_root
 from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.actuation.wheel_load import (
     SlewReason,
@@ -243,7 +243,7 @@ def test_the_smallest_wheel_is_found_where_time_is_not_monotonic():
     usual = np.minimum(smallest_spin_inertia(task, line), largest / 4.0)
     armature = -usual * rng.uniform(0.05, 0.5, count)
     least = -armature * rng.uniform(1.4, 3.0, count)
-    (h,) = smallest_roots([spin_demand(task, line, armature, least)])
+    h = smallest_root(spin_demand(task, line, armature, least))
     step = (largest / least) ** (1.0 / (points - 1))
     grid = least * step ** np.arange(points)[:, np.newaxis]
     time = wheel_slew_time(task, grid, line, armature)
@@ -301,7 +301,7 @@ def test_an_uncontrolled_axis():
 def test_empty_and_impossible_tasks():
     empty = WheelTask([0.0, 0.0], [0.0, 0.0], 0.5, axes(ROLL, BODY), pair(0.6))
     assert smallest_spin_inertia(empty, EC45_LINE) == 0.0
-    assert smallest_roots([spin_demand(empty, EC45_LINE, least=3e-5)])[0] == 3e-5
+    assert smallest_root(spin_demand(empty, EC45_LINE, least=3e-5)) == 3e-5
     assert wheel_slew_time(empty, [0.0, 1e-4, INF], EC45_LINE).tolist() == [0.0, 0.0, 0.0]
     turn = WheelTask([0.0, 0.01], [0.0, 0.0], 0.5, axes(ROLL, BODY), pair([0.6, 0.6, np.pi / 2]))
     assert np.isinf(wheel_slew_time(turn, [0.0, INF, 1e-4], EC45_LINE)).all()

@@ -15,8 +15,12 @@ from ocs_design.device.layout import Criterion, incidence_by_criterion, module_a
 from ocs_design.requirement.requirement import Requirement
 from ocs_design.requirement.turns import Drop
 from ocs_design.robot.mass import MassProperties
-from ocs_design.sizing.bound.device_problem import DeviceProblem, find_fixed_point
-from ocs_design.sizing.bound.device_sizing import PRECISION, size_device
+from ocs_design.sizing.bound.device_sizing import (
+    PRECISION,
+    DeviceProblem,
+    find_fixed_point,
+    size_device,
+)
 from ocs_design.sizing.limits import RIM_LIMITS, TOP_SPEED
 
 SOLO12 = MassProperties(

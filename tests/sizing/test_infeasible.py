@@ -11,8 +11,8 @@ from ocs_design.common.errors import Infeasible
 from ocs_design.device.layout import Criterion
 from ocs_design.requirement.requirement import Requirement
 from ocs_design.robot.mass import MassProperties
-from ocs_design.sizing.bound.device_problem import DeviceProblem
 from ocs_design.sizing.bound.device_sizing import (
+    DeviceProblem,
     conflicting_limits,
     is_feasible,
     largest_spin_inertia,

@@ -81,7 +81,7 @@ def test_the_lightest_device_recomputed_from_its_dimensions(solved):
 
     share = rotor_share(motor.rotor_inertia, gear)
     assert device.spin_inertia == pytest.approx(wheel_body(device)[1] + share, rel=1e-9)
-    line = drive_line(motor, gear, problem.bus_voltage)
+    line = drive_line(motor, gear, problem.supply.voltage)
     cap = problem.wheel_speed_max or np.inf
     line = replace(line, speed_max=min(line.speed_max, cap)).reserved()
     by_name = {demand.source: demand for demand in device.demands}
@@ -228,7 +228,9 @@ def test_a_refusal_names_sufficient_changes():
     with pytest.raises(Infeasible) as caught:
         select(narrow)
     error = advice_on(caught.value)
-    assert error.message.startswith(f"Motor {motor.name} cannot do it at {problem.bus_voltage:g} V")
+    assert error.message.startswith(
+        f"Motor {motor.name} cannot do it at {problem.supply.voltage:g} V"
+    )
     assert "alone would do: " in error.hint
     assert "time" in error.relaxations
     match = re.search(r"([\w-]+) (height|duration|takeoff_velocity|settling) ", error.hint)

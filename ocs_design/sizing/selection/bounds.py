@@ -6,15 +6,13 @@ one on the mass, that gives one on the composite inertia, and that a better one 
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 from itertools import pairwise
 from typing import NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ocs_design.actuation.motor import Motor
-from ocs_design.actuation.spin_root import smallest_roots
+from ocs_design.actuation.spin_root import smallest_root
 from ocs_design.actuation.tilt_inertia import OUT_OF_REACH, TiltInertia
 from ocs_design.actuation.wheel_load import WheelBound, spin_demand
 from ocs_design.common.arrays import FloatArray
@@ -163,24 +161,21 @@ class PairBounds:
     @classmethod
     def of(cls, problem: SelectionProblem) -> Self:
         """Bounds from the masses of motor, gear and the smallest wheel."""
-        floor = RimFloor.of(problem)
+        floor, known = RimFloor.of(problem), known_pairs(problem)
         motors = np.array([motor.mass or 0.0 for motor in problem.motors])
-        plate, on_bell = problem.foot_plate, problem.on_bell
-        mounts = np.array([_mount_mass(motor, plate, on_bell) for motor in problem.motors])
+        # Least mass of screws and cage, less the holes.
+        mounts = np.array(
+            [
+                mount.by_floor().mass + mount.by_wheel().mass
+                for motor in problem.motors
+                for mount in [mount_of(motor, None, problem.foot_plate, on_bell=problem.on_bell)]
+            ]
+        )
         gears = np.array([gear.mass for gear in problem.gears])
         direct = np.array([gear.room is None for gear in problem.gears])
         drives = motors[:, None] + np.where(direct, mounts[:, None], 0.0) + gears
         least = len(problem.layout) * (drives + floor.mass.min(initial=np.inf))
-        known = known_pairs(problem)
-        least = np.where(known, least, np.inf)
-        return cls(problem, floor, known, least, np.zeros(known.shape))
-
-
-@lru_cache(maxsize=512)
-def _mount_mass(motor: Motor, foot_plate: float, on_bell: bool) -> float:
-    """Least mass of screws and cage, less the holes [kg]."""
-    mount = mount_of(motor, None, foot_plate, on_bell=on_bell)
-    return mount.by_floor().mass + mount.by_wheel().mass
+        return cls(problem, floor, known, np.where(known, least, np.inf), np.zeros(known.shape))
 
 
 def least_masses(floor: RimFloor, drives: Drives, spin_inertia: FloatArray) -> FloatArray:
@@ -209,14 +204,12 @@ def least_spin_inertias(
     requirement, least = problem.requirement, least_inertia(problem, drives, below, limits)
     line, armature = columns(drives.line), drives.armature[:, None]
     needed = np.broadcast_to(below[:, None], (len(drives), len(intervals)))
-    demands = []
     for maneuver in requirement.maneuvers:
         incidence = maneuver.incidence
         maneuver_intervals = intervals if incidence is None else [Interval(incidence, incidence)]
         task = bound_task(maneuver, requirement, least, maneuver_intervals, problem.layout)
-        demands.append(spin_demand(task, line, armature, below[:, None]))
-    for required in smallest_roots(demands) if demands else ():
-        needed = np.maximum(needed, required)
+        demand = spin_demand(task, line, armature, below[:, None])
+        needed = np.maximum(needed, smallest_root(demand))
     if requirement.rate_change is not None:
         uncoupled = column(TiltInertia.uncoupled(least.inertia.diagonal))
         axes = np.stack([problem.layout.hull(*interval) for interval in intervals])

@@ -291,7 +291,7 @@ def drives_of(
     speed_max = problem.wheel_speed_max or np.inf
     for (index, gear_index), web in zip(pairs.tolist(), web_indices.tolist(), strict=True):
         motor, gear = problem.motors[index], problem.gears[gear_index]
-        line = drive_line(motor, gear, problem.bus_voltage)
+        line = drive_line(motor, gear, problem.supply.voltage)
         gain = gear.ratio * gear.efficiency * (motor.torque_constant or np.inf)
         peak = float(line.torque_limit) / gain
         power = (

@@ -90,11 +90,6 @@ class SelectionProblem:
         )
 
     @property
-    def bus_voltage(self) -> float:
-        """Voltage of the supply [V]."""
-        return self.supply.voltage
-
-    @property
     def web_thickness(self) -> float:
         """Thickness of their webs [m]."""
         return WEB_THICKNESS if self.web_material is None else SHRUNK_WEB_THICKNESS

@@ -135,10 +135,7 @@ def lightest(programme: "Programme", start: FloatArray) -> Optimum:
             jac=slope,
             method="SLSQP",
             bounds=Bounds(low, high),
-            constraints=[
-                constraint(unequal, np.inf),
-                *([constraint(equal, 0.0)] if specified else []),
-            ],
+            constraints=[constraint(unequal, np.inf), constraint(equal, 0.0)][: 1 + specified],
             options={"maxiter": _ITERATIONS_MAX, "ftol": _DIGITS},
         )
     return best

@@ -74,7 +74,7 @@ class Refused(Infeasible):
         # By distance from feasibility; motors with missing data last.
         nearest = min(rejections, key=lambda one: (one.reason is Reason.FIGURES, one.shortfall))
         largest = nearest.largest
-        count, voltage = len(problem.motors), f"{problem.bus_voltage:g} V"
+        count, voltage = len(problem.motors), f"{problem.supply.voltage:g} V"
         if (wheels := len(problem.layout)) != 2:
             voltage += " with one wheel" if wheels == 1 else f" with {wheels} wheels"
         who = (

@@ -69,15 +69,15 @@ class SearchState(PairBounds):
     """State of a search: bounds, solved candidates and the ranking so far.
 
     Attributes:
-        batches: solved candidates. ranking: entries of the lightest devices, lightest first.
         mass_max: mass above which devices are of no interest [kg].
         ranked: whether the next lightest are searched for too.
+        batches: solved candidates. ranking: entries of the lightest devices, lightest first.
     """
 
-    batches: list[Solved] = field(default_factory=list)
-    ranking: list[RankEntry] = field(default_factory=list)
     mass_max: float = np.inf
     ranked: bool = True
+    batches: list[Solved] = field(default_factory=list)
+    ranking: list[RankEntry] = field(default_factory=list)
 
     @property
     def lightest(self) -> float:
