@@ -10,14 +10,13 @@ import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from enum import StrEnum
-from functools import cache
 from pathlib import Path
 from typing import Annotated
 
 import msgspec
 
 from ocs_design.actuation.motor import Gear, GearRoom
-from ocs_design.catalogue.rows import entry, extended, fraction, load_entries, packaged
+from ocs_design.catalogue.rows import catalogue, entry, fraction, load_entries
 from ocs_design.common.errors import SpecificationError
 from ocs_design.common.files import to_json
 
@@ -297,19 +296,15 @@ _NEEDED: Mapping[GearKind, tuple[str, ...]] = {
 }
 
 
-@cache
-def gears() -> Mapping[str, GearSheet]:
-    """Every gear of the catalogue by name, sorted; read and checked on the first call."""
-    return packaged("gears.csv", load_gears)
+def gears(file: Path | None = None) -> Mapping[str, GearSheet]:
+    """Every gear of the catalogue by name, sorted, and those of a user's file.
 
-
-def known_gears(file: Path | None = None) -> Mapping[str, GearSheet]:
-    """The catalogue's gears and those of a user's file, which replace ones of the same name.
+    Those of the file replace ones of the same name.
 
     Raises:
         SpecificationError: see `load_entries`.
     """
-    return extended(gears(), file, load_gears)
+    return catalogue("gears.csv", load_gears, file)
 
 
 def gear(name: str, known: Mapping[str, GearSheet] | None = None) -> GearSheet:

@@ -3,11 +3,10 @@
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from functools import cache
 from pathlib import Path
 from typing import Annotated
 
-from ocs_design.catalogue.rows import entry, load_entries, packaged
+from ocs_design.catalogue.rows import catalogue, entry, load_entries
 from ocs_design.common.files import to_json
 from ocs_design.common.ranges import Unit
 
@@ -47,10 +46,9 @@ def _faults(material: Material) -> Iterator[str]:
         yield "yield_strength_pa is above ultimate_strength_pa"
 
 
-@cache
 def materials() -> Mapping[str, Material]:
-    """Every material of the catalogue by name, sorted; read and checked on the first call."""
-    return packaged("materials.csv", load_materials)
+    """Every material of the catalogue by name, sorted."""
+    return catalogue("materials.csv", load_materials)
 
 
 def load_materials(path: Path) -> Mapping[str, Material]:

@@ -32,7 +32,7 @@ from ocs_design.actuation.motor import (
     six_step_current,
     six_step_torque_constant,
 )
-from ocs_design.catalogue.rows import columns_of, entry, extended, load_entries, packaged
+from ocs_design.catalogue.rows import catalogue, columns_of, entry, load_entries
 from ocs_design.common.files import to_json
 from ocs_design.common.ranges import Unit
 from ocs_design.common.records import recorded
@@ -491,19 +491,15 @@ def _faults(sheet: MotorSheet) -> Iterator[str]:
         yield from (f"{doubt}; explain it in `remark`" for doubt in _contradictions(sheet))
 
 
-@cache
-def motors() -> Mapping[str, Motor]:
-    """Every motor of the catalogue by name, sorted; read and checked on the first call."""
-    return packaged("motors.csv", load_motors)
+def motors(file: Path | None = None) -> Mapping[str, Motor]:
+    """Every motor of the catalogue by name, sorted, and those of a user's file.
 
-
-def known_motors(file: Path | None = None) -> Mapping[str, Motor]:
-    """The catalogue's motors and those of a user's file, which replace ones of the same name.
+    Those of the file replace ones of the same name.
 
     Raises:
         SpecificationError: see `load_entries`.
     """
-    return extended(motors(), file, load_motors)
+    return catalogue("motors.csv", load_motors, file)
 
 
 def motor(name: str, known: Mapping[str, Motor] | None = None) -> Motor:

@@ -395,17 +395,21 @@ def _read_cells(
     return {**dict.fromkeys(required, ""), **values}, tuple(unread)
 
 
-def packaged(name: str, load: Callable[[Path], Mapping[str, E]]) -> Mapping[str, E]:
-    """Every entry of a file that comes with the package."""
+def catalogue(
+    name: str, load: Callable[[Path], Mapping[str, E]], file: Path | None = None
+) -> Mapping[str, E]:
+    """Every entry of a file that comes with the package, read and checked on the first call.
+
+    Entries of a user's file replace ones of the same name.
+    """
+    packaged = _packaged(name, load)
+    return packaged if file is None else _by_name({**packaged, **load(file)})
+
+
+@cache
+def _packaged(name: str, load: Callable[[Path], Any]) -> Any:  # noqa: ANN401
     with as_file(resources("ocs_design.catalogue").joinpath(name)) as path:
         return load(path)
-
-
-def extended(
-    known: Mapping[str, E], file: Path | None, load: Callable[[Path], Mapping[str, E]]
-) -> Mapping[str, E]:
-    """These entries and those of a user's file, which replace ones of the same name."""
-    return known if file is None else _by_name({**known, **load(file)})
 
 
 def _by_name(entries: Mapping[str, E]) -> Mapping[str, E]:

@@ -101,9 +101,7 @@ def main() -> int:
 @app.callback(invoke_without_command=True)
 def _no_command(
     context: typer.Context,
-    version: Annotated[
-        bool, typer.Option("-V", "--version", help="Print the version and exit.")
-    ] = False,
+    version: Annotated[bool, opt.flag("-V --version", "Print the version and exit.")] = False,
 ) -> None:
     if version:
         from ocs_design import __version__
@@ -120,7 +118,7 @@ def size(
     context: typer.Context,
     open_report: Annotated[
         bool,
-        typer.Option("--open", help="Open the report in the browser, if there is a screen."),
+        opt.flag("--open", "Open the report in the browser, if there is a screen."),
     ] = False,
     seed: opt.Seed = None,
     out: Annotated[
@@ -128,9 +126,7 @@ def size(
     ] = None,
     verbose: Annotated[
         bool,
-        typer.Option(
-            "-v", "--verbose", help="Print all figures instead of the one-screen summary."
-        ),
+        opt.flag("-v --verbose", "Print all figures instead of the one-screen summary."),
     ] = False,
     *,
     output: Output,
@@ -154,7 +150,7 @@ def size(
 @app.command(epilog=_examples("demo"))
 def demo(
     no_open: Annotated[
-        bool, typer.Option("--no-open", help="Do not open the report in the browser.")
+        bool, opt.flag("--no-open", "Do not open the report in the browser.")
     ] = False,
     out: Annotated[Path, opt.option("-o --out", "DIR", "Output folder.")] = Path("solo12-ocs"),
     force: opt.Force = False,
@@ -277,7 +273,7 @@ def inspect(
         ),
     ] = None,
     verbose: Annotated[
-        bool, typer.Option("-v", "--verbose", help="Also print each joint of the posture.")
+        bool, opt.flag("-v --verbose", "Also print each joint of the posture.")
     ] = False,
     no_color: opt.NoColor = False,
 ) -> None:
@@ -359,7 +355,7 @@ def catalogue(
     gears: opt.GearsFile = None,
     as_json: opt.AsJson = False,
     verbose: Annotated[
-        bool, typer.Option("-v", "--verbose", help="Also print each row's source and remark.")
+        bool, opt.flag("-v --verbose", "Also print each row's source and remark.")
     ] = False,
     no_color: opt.NoColor = False,
 ) -> None:

@@ -61,13 +61,11 @@ QUESTIONS: Mapping[str, str] = {
 @with_options(opt.START_OPTIONS)
 def init(
     context: typer.Context,
-    yes: Annotated[
-        bool, typer.Option("-y", "--yes", help="Ask no questions, as without a terminal.")
-    ] = False,
+    yes: Annotated[bool, opt.flag("-y --yes", "Ask no questions, as without a terminal.")] = False,
     out: Annotated[
         Path | None, opt.option("-o --out", "FILE", "File to write. Default: <name>.toml.")
     ] = None,
-    force: Annotated[bool, typer.Option("--force", help="Replace a file.")] = False,
+    force: Annotated[bool, opt.flag("--force", "Replace a file.")] = False,
     as_json: opt.AsJson = False,
     strict: opt.Strict = False,
     quiet: opt.Quiet = False,
@@ -86,18 +84,15 @@ def init(
     packages, specified = package_paths_of_command(context), specified_by_command(context)
     read = partial(read_starting_point, package_paths=packages, strict=strict)
     asking = not (yes or as_json) and sys.stdin.isatty() and sys.stderr.isatty()
-    robot_section = specified.robot
-    sources = (robot_section.file, robot_section.mass, robot_section.inertia, robot_section.human)
-    if asking and all(source is None for source in sources):
-        start = _ask(
-            "Robot file (URDF, xacro or MJCF), or nothing",
-            "",
-            lambda file: read(
-                replace(specified, robot=replace(robot_section, file=file.strip() or None))
-            ),
-        )
-    else:
-        start = read(specified)
+    start = read(specified)
+    if asking and start.robot is None:
+
+        def with_robot(file: str) -> "StartingPoint":
+            """The start for the robot of a file; without a name as before."""
+            robot = replace(specified.robot, file=file.strip() or None)
+            return read(replace(specified, robot=robot))
+
+        start = _ask("Robot file (URDF, xacro or MJCF), or nothing", "", with_robot)
     file = out or start.default_file
     check_file_target(file, force=force)
     chosen: tuple[str, ...] = ()
@@ -336,13 +331,11 @@ def validate(
     reality: opt.Reality = None,
     ballistic: opt.Ballistic = False,
     desaturate: Annotated[
-        bool, typer.Option("--desaturate", help="Brake the wheels while the robot stands.")
+        bool, opt.flag("--desaturate", "Brake the wheels while the robot stands.")
     ] = False,
     view: Annotated[
         bool,
-        typer.Option(
-            "--view", help="Show the flights in MuJoCo's viewer; closing it shows the next."
-        ),
+        opt.flag("--view", "Show the flights in MuJoCo's viewer; closing it shows the next."),
     ] = False,
     out: Annotated[
         Path | None,

@@ -97,16 +97,16 @@ def _paths(typed: str, ends: tuple[str, ...]) -> Iterator[str]:
 
 def motors() -> Iterable[str]:
     """Motors in the catalogue, and the words accepted in place of one."""
-    from ocs_design.catalogue.motors import known_motors
+    from ocs_design.catalogue.motors import motors
 
-    return ("auto", "none", *known_motors(None))
+    return ("auto", "none", *motors())
 
 
 def gears() -> Iterable[str]:
     """Gears in the catalogue, and the words accepted in place of one."""
-    from ocs_design.catalogue.gears import known_gears
+    from ocs_design.catalogue.gears import gears
 
-    return ("auto", "direct", *known_gears(None))
+    return ("auto", "direct", *gears())
 
 
 def materials() -> Iterable[str]:

@@ -75,9 +75,14 @@ def _texts(
     return Annotated[Texts, option("", metavar, help_text, complete)]
 
 
-def _flag(name: str, help_text: str) -> object:
+def flag(names: str, help_text: str) -> object:
     """An option without a value; a name made by Typer would come with `--no-...`."""
-    return Annotated[bool, typer.Option(name, help=help_text)]
+    return typer.Option(*names.split(), help=help_text)
+
+
+def _flag(name: str, help_text: str) -> object:
+    """The type of an option without a value."""
+    return Annotated[bool, flag(name, help_text)]
 
 
 RobotFile: TypeAlias = Annotated[
@@ -118,7 +123,7 @@ GearsFile: TypeAlias = Annotated[
     ),
 ]
 Ballistic: TypeAlias = Annotated[
-    bool, typer.Option("--ballistic", help="Start jumps at lift-off: no push-off by the legs.")
+    bool, flag("--ballistic", "Start jumps at lift-off: no push-off by the legs.")
 ]
 Reality: TypeAlias = Annotated[
     Text,
@@ -131,23 +136,16 @@ Reality: TypeAlias = Annotated[
 ]
 Certify: TypeAlias = Annotated[
     bool,
-    typer.Option(
-        "--certify",
-        help="Fly sampled robots until it is certain whether enough of them pass.",
-    ),
+    flag("--certify", "Fly sampled robots until it is certain whether enough of them pass."),
 ]
 Seed: TypeAlias = Annotated[int | None, option("--seed", "N", "Seed of all random numbers.")]
 Force: TypeAlias = Annotated[
-    bool, typer.Option("--force", help="Replace an existing folder once the new one is complete.")
+    bool, flag("--force", "Replace an existing folder once the new one is complete.")
 ]
-AsJson: TypeAlias = Annotated[
-    bool, typer.Option("--json", help="Print one JSON document on standard output.")
-]
-Strict: TypeAlias = Annotated[bool, typer.Option("--strict", help="Treat warnings as errors.")]
-Quiet: TypeAlias = Annotated[bool, typer.Option("-q", "--quiet", help="Print only errors.")]
-NoColor: TypeAlias = Annotated[
-    bool, typer.Option("--no-color", help="No colour; NO_COLOR=1 does the same.")
-]
+AsJson: TypeAlias = Annotated[bool, flag("--json", "Print one JSON document on standard output.")]
+Strict: TypeAlias = Annotated[bool, flag("--strict", "Treat warnings as errors.")]
+Quiet: TypeAlias = Annotated[bool, flag("-q --quiet", "Print only errors.")]
+NoColor: TypeAlias = Annotated[bool, flag("--no-color", "No colour; NO_COLOR=1 does the same.")]
 
 ROBOT_OPTIONS: Mapping[str, object] = {
     "robot": RobotFile,

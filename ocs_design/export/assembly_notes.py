@@ -6,7 +6,7 @@ from math import sqrt
 import numpy as np
 
 from ocs_design.actuation.motor import DIRECT, Face, GearRoom, Mounting
-from ocs_design.catalogue.motors import known_motors
+from ocs_design.catalogue.motors import motors
 from ocs_design.common.units import STANDARD_GRAVITY, format_quantity
 from ocs_design.device.device import Device
 from ocs_design.device.joints import FLOOR_SHOCK, foot_hold, joints_of
@@ -58,7 +58,7 @@ def drive_notes(device: Device) -> tuple[str, ...]:
         above = format_quantity(room.offset, "mm")
         beside = f", its axis {above} above the wheel's" if room.offset else ""
         unknown = "shafts" if room.depth else "room and threads"
-        known = known_motors(None).get(motor.name)
+        known = motors().get(motor.name)
         stator = None if known is None or known.mounting is None else known.mounting.stator
         threads = "" if stator is None else f"; the motor's threads are {stator}"
         stands = (
@@ -72,7 +72,7 @@ def drive_notes(device: Device) -> tuple[str, ...]:
             f"in the catalogue: {stands}; {_DRILL_FOR_IT}{threads}"
         )
         return (note, *_overlap_notes(device, foot), *_landing_notes(device, foot))
-    mounting, known = motor.mounting or Mounting(), known_motors(None).get(motor.name)
+    mounting, known = motor.mounting or Mounting(), motors().get(motor.name)
     remark = () if known is None or not known.remark else (f"about the motor: {known.remark}",)
     return (
         *remark,

@@ -26,7 +26,6 @@ from ocs_design.simulation.piloted import PilotedFlight
 from ocs_design.simulation.run import Metrics
 from ocs_design.simulation.verdict import landing_attitude
 from ocs_design.workflows.flying import read_flights
-from ocs_design.workflows.validate import campaign_of
 
 Observation: TypeAlias = NDArray[np.float32]
 
@@ -85,7 +84,7 @@ class OcsFlight(gymnasium.Env[Observation, Observation]):
         flights = read_flights(design, Specification(), robot_file=robot_file)
         # The record says what the legs can bear, unless the design was never flown.
         runs = flights.design.validation or flights.fly(Steps())
-        self._campaign = campaign_of(flights, runs)
+        self._campaign = flights.campaign(runs)
         names = [flight.maneuver.name for flight in self._campaign.flights]
         if maneuver is not None and maneuver not in names:
             raise UsageError(f"the design has no maneuver {maneuver!r}", hint=f"it has {names}")

@@ -9,9 +9,9 @@ from types import MappingProxyType
 from ocs_design.actuation.controllers import controller_mass_of
 from ocs_design.actuation.motor import DIRECT, Gear, Motor, build_gaps
 from ocs_design.actuation.supply import Supply
-from ocs_design.catalogue.gears import known_gears, named_stages, stages
+from ocs_design.catalogue.gears import gears, named_stages, stages
 from ocs_design.catalogue.materials import Material, material, strong_materials
-from ocs_design.catalogue.motors import implausible_values, known_motors, load_motors, motor
+from ocs_design.catalogue.motors import implausible_values, load_motors, motor, motors
 from ocs_design.common.errors import SpecificationError
 from ocs_design.requirement.device_sections import MotorSection
 from ocs_design.requirement.specification import Specification
@@ -125,13 +125,13 @@ def unknown_names(specification: Specification) -> Iterator[str]:
     choices: tuple[tuple[str, Callable[[], object], str, Callable[[], object]], ...] = (
         (
             "motor.motors",
-            lambda: known_motors(_path(specified.motors)),
+            lambda: motors(_path(specified.motors)),
             names,
             lambda: _motors(specification),
         ),
         (
             "motor.gears",
-            lambda: known_gears(_path(specified.gears)),
+            lambda: gears(_path(specified.gears)),
             "motor.gear",
             lambda: _gears(specification),
         ),
@@ -158,7 +158,7 @@ def _motors(specification: Specification, voltage: float = 0.0) -> tuple[Motor, 
     specified = specification.motor
     file = _path(specified.motors)
     if specified.name not in {None, AUTO, NO_MOTOR}:
-        known = known_motors(file)
+        known = motors(file)
         names = dict.fromkeys(names_in(specified.name or ""))
         if keywords := [word for word in (AUTO, NO_MOTOR) if word in names]:
             raise SpecificationError(
@@ -167,7 +167,7 @@ def _motors(specification: Specification, voltage: float = 0.0) -> tuple[Motor, 
             )
         return tuple(motor(name, known) for name in names)
     only_own = file is not None and not specified.with_catalogue
-    available = tuple((load_motors(file) if only_own and file else known_motors(file)).values())
+    available = tuple((load_motors(file) if only_own and file else motors(file)).values())
     if not available:
         raise SpecificationError(
             f"{file} has no motors", hint="`ocs-design catalogue motors` shows what a row has"
@@ -212,7 +212,7 @@ def motor_warnings(specification: Specification) -> tuple[str, ...]:
 
 def highest_known_voltage(specification: Specification) -> float:
     """Highest supply voltage that the maker of any known motor allows [V]; 0: unknown."""
-    known = known_motors(_path(specification.motor.motors)).values()
+    known = motors(_path(specification.motor.motors)).values()
     return max(map(_highest_voltage, known), default=0.0)
 
 
@@ -222,7 +222,7 @@ MOTORS_NAMED = 3
 
 def _gears(specification: Specification) -> tuple[Gear, ...]:
     specified = specification.motor
-    known = known_gears(_path(specified.gears))
+    known = gears(_path(specified.gears))
     name = specified.gear or default_gear(specified)
     if name == DIRECT.name:
         return (DIRECT,)

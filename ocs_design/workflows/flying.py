@@ -75,10 +75,13 @@ class PlannedFlights(Flights):
 
     Attributes:
         control: the wheel law, from which the options follow.
+        uncertainty: deviations from the design, as far as specified. seed: of all samples.
         detection: time until a failed drive is detected, if one also fails in flights [s].
     """
 
     control: ControlRecord
+    uncertainty: UncertaintySection
+    seed: int
     detection: float | None = None
 
     def fly(self, steps: Steps, *, pose_rate: float | None = None) -> tuple[Run, ...]:
@@ -98,15 +101,8 @@ class PlannedFlights(Flights):
             )
         return survival
 
-    def campaign(
-        self, runs: Iterable[Run | ValidationRecord], specified: UncertaintySection, seed: int
-    ) -> Campaign:
-        """Everything that determines the samples.
-
-        Args:
-            runs: as designed, which show what the legs can take.
-            specified: specified deviations from the design.
-            seed: of all samples.
+    def campaign(self, runs: Iterable[Run | ValidationRecord]) -> Campaign:
+        """Everything that determines the samples; `runs`, as designed, show what the legs can take.
 
         Raises:
             OcsError: no flight of this robot can be judged.
@@ -114,9 +110,9 @@ class PlannedFlights(Flights):
         if objection := refusal(self.robot):
             hint = "name a link of the trunk whose z axis points up with --trunk"
             raise OcsError(objection, hint=hint)
-        uncertainty = Uncertainty.of(specified, self.robot, self.device, self.detection)
+        uncertainty = Uncertainty.of(self.uncertainty, self.robot, self.device, self.detection)
         can_stand = [run.can_stand for run in runs if run.ocs]
-        return make_campaign(self, can_stand=can_stand, uncertainty=uncertainty, seed=seed)
+        return make_campaign(self, can_stand=can_stand, uncertainty=uncertainty, seed=self.seed)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -125,13 +121,11 @@ class DesignFlights(PlannedFlights):
 
     Attributes:
         path: of the `design.json`. design: its content.
-        uncertainty: deviations from the design, as far as specified.
         warnings: about the robot, that did not occur when the device was sized.
     """
 
     path: Path
     design: OcsDesign
-    uncertainty: UncertaintySection
     warnings: tuple[str, ...]
 
     @property
@@ -209,6 +203,7 @@ def read_flights(
         references=references,
         jumps=jumps,
         warnings=warnings,
+        seed=design.seed if specified.validation.seed is None else specified.validation.seed,
         detection=specified.requirement.notices
         if specified.requirement.survives is not None
         else design.requirement.detection,

@@ -381,6 +381,8 @@ def plan_and_fly(placed: PlacedDevice, specified: ValidationSection, steps: Step
         requirement.maneuvers,
         Options.of_record(control),
         control=control,
+        uncertainty=placed.specification.reality,
+        seed=specified.seed or 0,
         references=trajectories(references),
         jumps=jumps,
         detection=requirement.detection,
@@ -416,9 +418,7 @@ def certify(
     test = SequentialTest(placed.resolved.reliability or RELIABILITY)
     rounds: list[str] = []
     for number in range(1, ROUNDS + 1):
-        campaign = results.flights.campaign(
-            results.runs, specification.reality, specified.seed or 0
-        )
+        campaign = results.flights.campaign(results.runs)
         with steps.step(f"fly the certificate, round {number}") as step:
             flown = run_campaign(
                 campaign,

@@ -1,6 +1,6 @@
 """`ocs-design validate` on one page: read, fly as designed, fly samples."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from contextlib import closing, nullcontext
 from dataclasses import dataclass, replace
 from functools import partial
@@ -12,11 +12,10 @@ from ocs_design.common.errors import OcsError, UsageError
 from ocs_design.common.files import AnyPath, to_json
 from ocs_design.device.answers import MonteCarloRecord, SampleRecord, Validated
 from ocs_design.device.records.design import DESIGN_FILE
-from ocs_design.device.records.flights import ValidationRecord
 from ocs_design.export.film import Take, film_model
 from ocs_design.export.folder import check_target, file_hashes, staged_folder
 from ocs_design.export.watching import check_display, watch_takes
-from ocs_design.monte_carlo.campaign import Campaign, read_case, replayed, write_results
+from ocs_design.monte_carlo.campaign import read_case, replayed, write_results
 from ocs_design.monte_carlo.certificate import ROUND_STRIDE, SequentialTest, certificate
 from ocs_design.monte_carlo.outcomes import Identity, Storage, blocks_of
 from ocs_design.monte_carlo.running import (
@@ -71,49 +70,39 @@ class _Request:
         given = [name for name, value in alternatives.items() if value is not None]
         certifies, engine = self.specified.validation.certify is True, f"--engine {self.engine}"
         other_engine, width = self.engine != EngineName.MUJOCO, self.until_width
-        faults = {
-            f"{' and '.join(given)} exclude each other": (len(given) > 1, "give one"),
-            f"--sample {self.sample}: must be a whole number from 0": ((self.sample or 0) < 0, ""),
-            f"{'; '.join(given)} and --certify exclude each other: one robot certifies nothing": (
-                certifies and self.flies_one_sample,
-                "leave --certify out, or `certify` of the specification",
-            ),
-            "--certify and --until-width exclude each other": (
-                certifies and width is not None,
-                "give one",
-            ),
-            "--until-width and --scheduler need --samples": (
-                not self.flies_many_samples and (width is not None or self.scheduler is not None),
-                "add --samples N",
-            ),
-            f"{engine}: must be {' or '.join(EngineName)}": (
-                self.engine not in tuple(EngineName),
-                "",
-            ),
-            f"{engine} needs --samples": (
-                other_engine and not self.flies_many_samples,
-                "add --samples N",
-            ),
-            f"{engine} and --scheduler exclude each other": (
-                other_engine and self.scheduler is not None,
-                "",
-            ),
-            f"{engine} and --certify exclude each other: it computes in single precision": (
-                other_engine and certifies,
-                "leave --engine out to certify",
-            ),
-            f"--samples {self.samples}: must be from 1 to {ROUND_STRIDE:,}": (
-                self.samples is not None and not 1 <= self.samples <= ROUND_STRIDE,
-                "",
-            ),
-            f"--until-width {width or 0.0:.4g}: must be between 0 and 100 %": (
-                width is not None and not 0.0 < width < 1.0,
-                "",
-            ),
-        }
-        for message, (applies, hint) in faults.items():
+
+        def refuse(applies: bool, message: str, hint: str = "") -> None:
             if applies:
                 raise UsageError(message, hint=hint)
+
+        refuse(len(given) > 1, f"{' and '.join(given)} exclude each other", "give one")
+        refuse((self.sample or 0) < 0, f"--sample {self.sample}: must be a whole number from 0")
+        refuse(
+            certifies and self.flies_one_sample,
+            f"{'; '.join(given)} and --certify exclude each other: one robot certifies nothing",
+            "leave --certify out, or `certify` of the specification",
+        )
+        if width is not None:
+            refuse(certifies, "--certify and --until-width exclude each other", "give one")
+        if not self.flies_many_samples:
+            needy = width is not None or self.scheduler is not None
+            refuse(needy, "--until-width and --scheduler need --samples", "add --samples N")
+        unknown = self.engine not in tuple(EngineName)
+        refuse(unknown, f"{engine}: must be {' or '.join(EngineName)}")
+        if other_engine:
+            refuse(not self.flies_many_samples, f"{engine} needs --samples", "add --samples N")
+            refuse(self.scheduler is not None, f"{engine} and --scheduler exclude each other")
+            refuse(
+                certifies,
+                f"{engine} and --certify exclude each other: it computes in single precision",
+                "leave --engine out to certify",
+            )
+        if self.samples is not None:
+            possible = 1 <= self.samples <= ROUND_STRIDE
+            refuse(not possible, f"--samples {self.samples}: must be from 1 to {ROUND_STRIDE:,}")
+        if width is not None:
+            possible = 0.0 < width < 1.0
+            refuse(not possible, f"--until-width {width:.4g}: must be between 0 and 100 %")
         if self.view:
             check_display()
 
@@ -246,7 +235,7 @@ def validate_design(
         record, files = _fly_samples(request, flights, runs, steps, physics)
         return Validation(replace(answer, monte_carlo=record), request.out, files, flights, runs)
     if request.flies_one_sample:
-        campaign = campaign_of(flights, runs, request.specified.validation.seed)
+        campaign = flights.campaign(runs)
         to_sample = campaign.sample(sample or 0)
         if case is not None:
             to_sample = case.to_sample(flights.device.layout, flights.detection)
@@ -335,7 +324,7 @@ def _fly_samples(
     if request.specified.validation.certify:
         test = SequentialTest(flights.design.requirement.reliability or RELIABILITY)
     requested, folder = request.samples or (0 if test is None else test.most_flights), request.out
-    campaign = replace(campaign_of(flights, runs, request.specified.validation.seed), engine=engine)
+    campaign = replace(flights.campaign(runs), engine=engine)
     stop_when = None if request.until_width is None else narrow(request.until_width)
     stop_when = stop_when if test is None else test.decided
     flown, storage = flights.flown_hash, None
@@ -377,20 +366,3 @@ def _fly_samples(
         return record, ()
     files = write_results(campaign, outcomes, record, folder, design=flown)
     return record, tuple(str(file.relative_to(folder)) for file in files)
-
-
-def campaign_of(
-    flights: DesignFlights, runs: Sequence[Run | ValidationRecord], seed: int | None = None
-) -> Campaign:
-    """Everything that determines the samples of this design.
-
-    Args:
-        flights: of the design. runs: as designed, which show what the legs can take.
-        seed: of all samples; None: the design's.
-
-    Raises:
-        OcsError: no flight of this robot can be judged.
-    """
-    return flights.campaign(
-        runs, flights.uncertainty, flights.design.seed if seed is None else seed
-    )

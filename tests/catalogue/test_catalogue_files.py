@@ -6,8 +6,8 @@ from importlib.resources import as_file, files
 import pytest
 
 from ocs_design.actuation.motor import BoltCircle, Face, Mounting, build_gaps
-from ocs_design.catalogue.gears import known_gears, load_gears
-from ocs_design.catalogue.motors import implausible_values, known_motors, load_motors, motors
+from ocs_design.catalogue.gears import gears, load_gears
+from ocs_design.catalogue.motors import implausible_values, load_motors, motors
 from ocs_design.common.errors import SpecificationError
 
 HEADER = "name,maker,source,mass_kg,kt_nm_per_a,kt_convention,kv_rpm_per_v,resistance_ohm"
@@ -91,11 +91,11 @@ def test_a_file_without_motors_is_an_empty_catalogue(load):
 def test_a_users_motor_replaces_that_of_the_catalogue(tmp_path):
     path = tmp_path / "mine.toml"
     path.write_text(toml() + "\n" + toml(name="R80 KV110", mass_kg=0.3))
-    known = known_motors(path)
+    known = motors(path)
     assert len(known) == len(motors()) + 1
     assert known["R80 KV110"].mass == 0.3
     assert list(known) == sorted(known)
-    assert known_motors() is motors()
+    assert motors() is motors()
 
 
 FAULTS = {
@@ -348,4 +348,4 @@ def test_faults_of_gears(load, line, message):
 def test_a_users_gear_joins_the_catalogue(tmp_path):
     path = tmp_path / "mine.toml"
     path.write_text(GEAR)
-    assert known_gears(path)["G"].missing
+    assert gears(path)["G"].missing

@@ -6,7 +6,7 @@ from math import isfinite
 import pytest
 
 from ocs_design.actuation.fasteners import CLASSES, IN_PLASTIC, USUAL_CLASS, BoltedJoint, screw
-from ocs_design.catalogue.motors import known_motors
+from ocs_design.catalogue.motors import motors
 from ocs_design.export.assembly.content import tightened
 from ocs_design.parts.foot import PLATE_THICKNESS
 from ocs_design.parts.housing import LID_SCREWS
@@ -16,7 +16,7 @@ from ocs_design.parts.printed import FLOOR, PANEL, trunk_screws
 
 SCREWED = [
     motor
-    for motor in known_motors(None).values()
+    for motor in motors().values()
     if motor.mounting is not None and mount_of(motor, None).screwed
 ]
 
@@ -62,7 +62,7 @@ def test_no_screw_is_longer_than_a_thread_of_known_depth():
 
     The wheel's joint counts the engaged thread, and a usual one where the depth is not known.
     """
-    wheel, stator, _ = fastenings(known_motors(None)["U8 Lite L KV110"])
+    wheel, stator, _ = fastenings(motors()["U8 Lite L KV110"])
     assert (wheel.designation, stator.designation) == ("ISO 4762 M4 x 6", "ISO 4762 M4 x 6")
     assert (wheel.engagement, stator.engagement) == pytest.approx((2.5e-3, 3.0e-3))
     assert wheel.purpose.endswith("a CAD model has 3 mm: shorten them to 5.5 mm")

@@ -6,7 +6,7 @@ from contextlib import suppress
 from importlib.metadata import PackageNotFoundError, version
 
 from ocs_design.actuation.motor import DIRECT
-from ocs_design.catalogue.gears import known_gears
+from ocs_design.catalogue.gears import gears
 from ocs_design.catalogue.materials import materials
 from ocs_design.common.wording import counted, grams
 from ocs_design.device.records.design import OcsDesign
@@ -301,7 +301,7 @@ def record_section(story: Story) -> Markup:
     lines = (element("span", name) for name in ("Designed by", "Reviewed by", "Date"))
     motor, wheel = design.ocs.motor, design.ocs.flywheel
     sources = [("method", PAPER), ("motor", f"{motor.full_name}: {motor.source}")]
-    gear = known_gears(None).get(motor.gear) if motor.gear != DIRECT.name else None
+    gear = gears().get(motor.gear) if motor.gear != DIRECT.name else None
     if gear is not None:
         sources.append(("gear", f"{gear.name}: {gear.source}"))
     material_names = [wheel.material] + ([] if wheel.web is None else [wheel.web.material])

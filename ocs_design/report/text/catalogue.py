@@ -4,17 +4,17 @@ import math
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
 from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 from rich.console import Console
 
 from ocs_design.actuation.drive import speed_limit
 from ocs_design.actuation.motor import Gear, Motor, Mounting, build_gaps
-from ocs_design.catalogue.gears import GearSheet, gears_to_json, known_gears
+from ocs_design.catalogue.gears import GearSheet, gears, gears_to_json
 from ocs_design.catalogue.materials import Material, materials, materials_to_json
-from ocs_design.catalogue.motors import implausible_values, known_motors, motors_to_json
+from ocs_design.catalogue.motors import implausible_values, motors, motors_to_json
 from ocs_design.common.errors import UsageError
 from ocs_design.common.units import format_quantity, to_unit
 from ocs_design.report.table import CellTable, columns
@@ -43,12 +43,12 @@ class Listing:
 
     rows: Sequence[Motor | GearSheet | Material]
     json: bytes
-    print_table: Callable[[Console], None]
+    print_table: Callable[[Console, Any], None]
     warnings: tuple[str, ...] = ()
 
     def show(self, console: Console, *, verbose: bool) -> None:
         """Print the table and the sources; with `verbose`, the source of each row."""
-        self.print_table(console)
+        self.print_table(console, self.rows)
         heading(console, "Sources")
         by_source: dict[str, list[str]] = {}
         for row in self.rows:
@@ -57,12 +57,8 @@ class Listing:
             remarks = (row.source, mounting, str(getattr(row, "remark", "")))
             source = f"{row.name}: {'; '.join(filter(None, remarks))}" if verbose else row.source
             by_source.setdefault(source, []).append(row.name)
-        items(
-            console,
-            by_source
-            if verbose
-            else (f"{_names_of(names)}: {source}" for source, names in by_source.items()),
-        )
+        named = (f"{_names_of(names)}: {source}" for source, names in by_source.items())
+        items(console, by_source if verbose else named)
 
 
 def listing(what: str, files: Mapping[str, str | None]) -> Listing:
@@ -82,15 +78,13 @@ def listing(what: str, files: Mapping[str, str | None]) -> Listing:
     file = files.get(what)
     path = None if file is None else Path(file)
     if what == "motors":
-        motors = tuple(known_motors(path).values())
+        known = tuple(motors(path).values())
         doubts = () if path is None else implausible_values(path)
-        document = motors_to_json(motors, doubts)
-        return Listing(motors, document, partial(print_motors, motors=motors), doubts)
+        return Listing(known, motors_to_json(known, doubts), print_motors, doubts)
     if what == "gears":
-        gears = tuple(known_gears(path).values())
-        return Listing(gears, gears_to_json(gears), partial(print_gears, sheets=gears))
-    rows = tuple(materials().values())
-    return Listing(rows, materials_to_json(), partial(print_materials, entries=rows))
+        sheets = tuple(gears(path).values())
+        return Listing(sheets, gears_to_json(sheets), print_gears)
+    return Listing(tuple(materials().values()), materials_to_json(), print_materials)
 
 
 def motor_mounting(mounting: Mounting | None) -> str:
