@@ -74,13 +74,8 @@ def drive_notes(device: Device) -> tuple[str, ...]:
         return (note, *_overlap_notes(device, foot), *_landing_notes(device, foot))
     mounting, known = motor.mounting or Mounting(), motors().get(motor.name)
     remark = () if known is None or not known.remark else (f"about the motor: {known.remark}",)
-    return (
-        *remark,
-        *_mounting_notes(mounting, device),
-        *_shaft_notes(mounting, device),
-        *_overlap_notes(device, foot),
-        *_landing_notes(device, foot),
-    )
+    held = *_mounting_notes(mounting, device), *_shaft_notes(mounting, device)
+    return (*remark, *held, *_overlap_notes(device, foot), *_landing_notes(device, foot))
 
 
 def _mounting_notes(mounting: Mounting, device: Device) -> Iterator[str]:
@@ -99,18 +94,13 @@ def _mounting_notes(mounting: Mounting, device: Device) -> Iterator[str]:
         )
     elif mount.holes.screws is None:
         room = format_quantity(2.0 * foot_of(device).housing.inner_radius, "mm")
-        yield (
-            f"the motor's screws, {stator}, do not fit the housing's floor of {room}: "
-            f"{_DRILL_FOR_IT}"
-        )
+        unfit = f"the motor's screws, {stator}, do not fit the housing's floor of {room}"
+        yield f"{unfit}: {_DRILL_FOR_IT}"
     bell, wheel = mount.bell, device.flywheel
     if bell is None:
         return
-    length = device.motor.length or 0.0
-    middle = length - bell.front
-    low, high = (
-        format_quantity(middle + side * wheel.height / 2.0, "mm", digits=3) for side in (-1.0, 1.0)
-    )
+    middle, half = (device.motor.length or 0.0) - bell.front, wheel.height / 2.0
+    low, high = (format_quantity(end, "mm", digits=3) for end in (middle - half, middle + half))
     yield (
         f"the ring is {low} to {high} from the motor's back; that the bell is straight there, over "
         f"the middle {BELL_SHARE:.0%} of the motor's length, is an estimate without a source: "
@@ -184,9 +174,8 @@ def _landing_notes(device: Device, foot: Foot) -> Iterator[str]:
     if capacity < SHOCK:
         stronger = ALUMINIUM.strength / PETG.strength
         stiffer = foot_frequency(device, ALUMINIUM.modulus) / foot_frequency(device)
-        sway = "".join(
-            f", and let it sway at {mode.frequency:.0f} Hz" for mode in modes if mode.name == "foot"
-        )
+        frequencies = (mode.frequency for mode in modes if mode.name == "foot")
+        sway = "".join(f", and let it sway at {frequency:.0f} Hz" for frequency in frequencies)
         yield (
             f"printed in PETG, the feet take a shock of {capacity / STANDARD_GRAVITY:.2g} g on "
             f"{module:.2g} kg along the wheel's axis, not of {SHOCK / STANDARD_GRAVITY:.0f} "
@@ -255,11 +244,8 @@ def trunk_notes(device: Device, robot: Robot) -> tuple[str, ...]:
             f"{1e3 * abs(gap):.1f} mm {one if gap >= 0.0 else other} the {what}"
             for what, gap, one, other in ends
         )
-        where = (
-            f"the origin of the base frame lies {measured} of the trunk with all that the robot's "
-            "file fixes to it"
-        )
-        return trunk_threads(device), where
+        of = "of the trunk with all that the robot's file fixes to it"
+        return trunk_threads(device), f"the origin of the base frame lies {measured} {of}"
     if robot.format is not RobotFormat.MANUAL:
         return (trunk_threads(device),)
     where = f"the origin of the base frame is {origin_by_hand(robot.com.tolist())}"
@@ -267,10 +253,8 @@ def trunk_notes(device: Device, robot: Robot) -> tuple[str, ...]:
     if box is None:
         return trunk_threads(device), where
     top = float(box.position[2] + np.abs(box.rotation[2]) @ box.size)
-    standing = min(float(module.position[2]) for module in device.modules)
-    standing -= foot_of(device).wheel_height
-    gap = standing - top
-    stand = "on its top"
+    lowest = min(float(module.position[2]) for module in device.modules)
+    gap, stand = lowest - foot_of(device).wheel_height - top, "on its top"
     if gap > ON_TOP:
         stand = f"{1e3 * gap:.1f} mm above its top, and what is between them is not designed"
     elif gap < -ON_TOP:
@@ -300,13 +284,9 @@ def trunk_threads(device: Device) -> str:
             f"{format_quantity(2.0 * foot_of(device).slot_radius, 'mm', digits=3)}; their "
             "places in the base frame are on cad/drilling.pdf"
         )
-    at = ", ".join(places(trunk_holes(plate)))
-    longest = max(plate.sleeves)
-    sleeved = (
-        f"; sleeves of up to {format_quantity(longest, 'mm', digits=3)} go under it"
-        if longest > 0.0
-        else ""
-    )
+    at, longest, sleeved = ", ".join(places(trunk_holes(plate))), max(plate.sleeves), ""
+    if longest > 0.0:
+        sleeved = f"; sleeves of up to {format_quantity(longest, 'mm', digits=3)} go under it"
     if plate.relief is not None:
         sleeved = ", through a block shaped to the trunk"
     if plate.mast is not None:

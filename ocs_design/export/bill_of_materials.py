@@ -36,6 +36,7 @@ from ocs_design.parts.printed import (
     WASHER,
     WASHER_MASS,
 )
+from ocs_design.parts.rim import HoleRing
 from ocs_design.parts.wheel import Web
 
 COLUMNS = (
@@ -102,45 +103,38 @@ def bill_rows(device: Device, margins: Sequence[Margin] = ()) -> Sequence[BillRo
         rows.append(BillRow(f"gear {motor.gear}", count, "", "", motor.gear_mass, remark, source))
     printed = device.carrier.mass - motor.mass - motor.gear_mass - motor.controller_mass
     if printed > _MASSLESS:
-        foot, mount = foot_of(device), motor_mount(device)
+        foot, housing, mount = foot_of(device), foot_of(device).housing, motor_mount(device)
         drum, lid, base, *caged = (part.mass_properties().mass for part in printed_parts(device))
-        size = f"{_mm(2.0 * foot.housing.radius)} x {_mm(2.0 * foot.housing.half_height)}"
-        how_made = (
-            f"3-D print, wall {_mm(WALL)}, floor and lid {_mm(PANEL)}, "
-            f"{_mm(CLEARANCE)} clear of the rim"
-        )
-        rows.append(BillRow("housing", count, "PETG", size, drum + lid, how_made))
+        size = f"{_mm(2.0 * housing.radius)} x {_mm(2.0 * housing.half_height)}"
+        made = f"3-D print, wall {_mm(WALL)}, floor and lid {_mm(PANEL)}, "
+        made += f"{_mm(CLEARANCE)} clear of the rim"
+        rows.append(BillRow("housing", count, "PETG", size, drum + lid, made))
         size = f"{_mm(2.0 * foot.base_radius)} x {_mm(foot.wheel_height)} to the axis"
-        how_made = "3-D print, turned to the incidence by hand"
-        rows.append(BillRow("foot", count, "PETG", size, base, how_made))
+        made = "3-D print, turned to the incidence by hand"
+        rows.append(BillRow("foot", count, "PETG", size, base, made))
         if mount.cage is not None:
             size = f"{_mm(2.0 * mount.cage.reach)} x {_mm(mount.cage.length)}"
-            how_made = "3-D print, holds the motor by its back"
-            rows.append(BillRow("cage", count, "PETG", size, caged[0], how_made))
+            made = "3-D print, holds the motor by its back"
+            rows.append(BillRow("cage", count, "PETG", size, caged[0], made))
         if device.guard_wall:
-            mass = guard_ring(foot.housing).mass()
-            inside, tall = foot.housing.guard_radius, foot.housing.guard_height
-            outside = inside + device.guard_wall
-            size = f"ring {_mm(2.0 * inside)} inside x {_mm(device.guard_wall)} wall x {_mm(tall)}"
-            how_made = (
+            mass, wall = guard_ring(housing).mass(), device.guard_wall
+            inside, tall = housing.guard_radius, housing.guard_height
+            size = f"ring {_mm(2.0 * inside)} inside x {_mm(wall)} wall x {_mm(tall)}"
+            made = (
                 "to guard_ring.pdf: turned from tube, or bent and welded, no wall thinner; outside "
-                f"{_mm(2.0 * outside)} (0/-{1e3 * OUTSIDE_UNDER:g}), with epoxy in a drum of "
-                f"{_mm(2.0 * foot.housing.inner_radius)}; holds a burst rim"
+                f"{_mm(2.0 * (inside + wall))} (0/-{1e3 * OUTSIDE_UNDER:g}), with epoxy in a drum "
+                f"of {_mm(2.0 * housing.inner_radius)}; holds a burst rim"
             )
-            row = BillRow("guard ring", count, RING_STEEL, size, mass, how_made, piece="guard")
-            rows.append(row)
+            rows.append(BillRow("guard ring", count, RING_STEEL, size, mass, made, piece="guard"))
         # Screws of wheel and motor only if the catalogue has their threads.
         screwed = (ring.fastening for ring in mount.screwed)
         rows += [_screw_row(fastening, count) for fastening in (*screwed, LID_SCREWS)]
-        feet = [
-            (foot_screws(device, module), counted_foot_screws(device, module).length)
-            for module in device.modules
-        ]
-        for fastening, nominal_length in dict.fromkeys(feet):
-            row = _screw_row(fastening, feet.count((fastening, nominal_length)))
-            if fastening.length != nominal_length:
-                remark = f"{row.remark}; weighed as {fastening.screw.designation(nominal_length)}"
-                row = replace(row, mass=fastening.screw.mass(nominal_length), remark=remark)
+        feet = [(foot_screws(device, at), counted_foot_screws(device, at)) for at in device.modules]
+        for fastening, counted in dict.fromkeys(feet):
+            row, length = _screw_row(fastening, feet.count((fastening, counted))), counted.length
+            if fastening.length != length:
+                remark = f"{row.remark}; weighed as {fastening.screw.designation(length)}"
+                row = replace(row, mass=fastening.screw.mass(length), remark=remark)
             rows.append(row)
     return [*rows, *_support_rows(device), *_unweighed_rows(device, margins)]
 
@@ -153,15 +147,14 @@ def _support_rows(device: Device) -> Iterator[BillRow]:
         material = plate.material
         size = f"plate {_mm(thickness)}, at least {_least(length)} x {_least(width)}"
         sheets = ", a sheet for each kind" if len(plate.kinds) > 1 else ""
+        count, mass = len(plate.rows), plate_part(plate.single_plates[0]).mass()
         remark = (
             f"milled or cut by water jet to plate.pdf{sheets} (outline: `export --formats dxf`), "
             f"neck {_mm(2.0 * plate.neck)}; "
-            f"{len(plate.feet) // len(plate.rows)} threads {plate.foot_thread} for the feet"
+            f"{len(plate.feet) // count} threads {plate.foot_thread} for the feet"
         )
-        mass = plate_part(plate.single_plates[0]).mass()
-        yield BillRow(
-            "plate under the feet", len(plate.rows), material, size, mass, remark, piece="plate"
-        )
+        what = "plate under the feet"
+        yield BillRow(what, count, material, size, mass, remark, piece="plate")
         mast, support = plate.mast, "plate"
         across, wall = _mm(2.0 * plate.sleeve_radius), _mm(plate.sleeve_wall)
         tube = f"tube {across} x {wall} wall, or turned from bar"
@@ -187,10 +180,9 @@ def _support_rows(device: Device) -> Iterator[BillRow]:
                 mass = block_part(plate, plate.relief).mass()
                 yield BillRow("block of the mast", 1, material, size, mass, remark, piece=BLOCK)
             remark = f"cut to {_mm(mast.bore)}, in the upright around each screw"
-            mass, count = sleeve_part(plate, mast.bore).mass(), len(plate.trunk)
-            yield BillRow(
-                "sleeve in the mast", count, material, tube, mass, remark, piece="sleeves"
-            )
+            mass, what = sleeve_part(plate, mast.bore).mass(), "sleeve in the mast"
+            held = len(plate.trunk)
+            yield BillRow(what, held, material, tube, mass, remark, piece="sleeves")
         for length in sorted({length for length in plate.sleeves if length > 0.0}):
             shims = ", or shim washers" if length < SHIM else ""
             remark = f"cut to {_mm(length)}{shims}, between {support} and trunk"
@@ -236,10 +228,8 @@ def _unweighed_rows(device: Device, margins: Sequence[Margin]) -> Iterator[BillR
         yield BillRow("battery", 1, "", "", 0.0, f"{gives}; {left_out}")
         braking = "switches on above the full battery, below the controllers' limit"
         yield BillRow("brake resistor with switch", 1, "", "", 0.0, f"{braking}; {left_out}")
-    yield from (
-        BillRow(part, count, "", "", 0.0, f"{remark}; {left_out}")
-        for part, count, remark in wiring_parts(device, margins)
-    )
+    for part, count, remark in wiring_parts(device, margins):
+        yield BillRow(part, count, "", "", 0.0, f"{remark}; {left_out}")
     # Wheels alone are not assembled.
     if device.wheels_alone:
         return
@@ -260,21 +250,17 @@ def _unweighed_rows(device: Device, margins: Sequence[Margin]) -> Iterator[BillR
         )
         yield BillRow("retaining compound", 1, "", "", 0.0, where)
     if foot_hold(device).washers:
-        count, where = len(device.modules) * TRUNK_SCREW_COUNT, "under heads of the feet's screws"
-        longer = [
-            foot_screws(device, module).mass - counted_foot_screws(device, module).mass
-            for module in device.modules
-        ]
-        mass = count * WASHER_MASS + sum(longer)
-        share = f"{1e3 * mass:.1f} g in all, {mass / device.mass:.2%} of the device"
-        yield BillRow(
-            f"washer {WASHER}",
-            count,
-            "steel",
-            "",
-            0.0,
-            f"{where}; not in the mass: {share}, the screws' length for them included",
+        count = len(device.modules) * TRUNK_SCREW_COUNT
+        longer = (
+            foot_screws(device, at).mass - counted_foot_screws(device, at).mass
+            for at in device.modules
         )
+        mass = count * WASHER_MASS + sum(longer)
+        where = (
+            f"under heads of the feet's screws; not in the mass: {1e3 * mass:.1f} g in all, "
+            f"{mass / device.mass:.2%} of the device, the screws' length for them included"
+        )
+        yield BillRow(f"washer {WASHER}", count, "steel", "", 0.0, where)
     if unheld_moment(device, margins):
         where = "through a foot's base into what it stands on; not in the mass"
         yield BillRow("pin of 3 mm", len(device.modules), "steel", "", 0.0, where)
@@ -327,39 +313,32 @@ def _wheel_rows(wheel: Flywheel, count: int) -> Iterator[BillRow]:
         hole = f"{_mm(2.0 * cuts.hole_radius)} x {_mm(cuts.hole_depth)}"
         rim += f", {cuts.holes} balancing holes {hole} in each face"
     bore = f", bore {_mm(2.0 * wheel.inner_radius)}" if wheel.inner_radius > 0.0 else ""
-    if web is None:
-        stock = _stock(wheel.outer_radius, wheel.inner_radius, wheel.height)
-        yield BillRow(
-            "flywheel rim", count, material, stock, wheel.mass, rim + bore, piece="flywheel"
-        )
-    elif web.material == wheel.material:
+    name, mass, remark, piece = "flywheel rim", wheel.mass, rim + bore, "flywheel"
+    stock = _stock(wheel.outer_radius, wheel.inner_radius, wheel.height)
+    if web is not None and web.material == wheel.material:
+        name, remark = "flywheel, one piece", f"{rim}, {_web_text(web)}"
         stock = _stock(wheel.outer_radius, 0.0, max(wheel.height, web.hub.height))
-        remark = f"{rim}, {_web_text(web)}"
-        yield BillRow(
-            "flywheel, one piece", count, material, stock, wheel.mass, remark, piece="flywheel"
-        )
-    else:
-        stock = _stock(wheel.outer_radius, wheel.inner_radius, wheel.height)
-        seat = f"{rim}{bore}, seated on the web"
-        yield BillRow("flywheel rim", count, material, stock, wheel.rim_mass, seat, piece="rim")
-        material, remark = web.material, _web_text(web)
+    elif web is not None:
+        mass, remark, piece = wheel.rim_mass, f"{remark}, seated on the web", "rim"
+    yield BillRow(name, count, material, stock, mass, remark, piece=piece)
+    if web is not None and web.material != wheel.material:
+        name, remark = "flywheel web and hub", _web_text(web)
         stock = _stock(wheel.inner_radius, 0.0, max(web.thickness, web.hub.height))
-        yield BillRow("flywheel web and hub", count, material, stock, web.mass, remark, piece="hub")
+        yield BillRow(name, count, web.material, stock, web.mass, remark, piece="hub")
 
 
 def _web_text(web: Web) -> str:
-    hub = web.hub
-    bolts = (
-        f"{hub.bolts} holes {_mm(2.0 * hub.bolt_hole_radius)} "
-        f"on a circle of {_mm(2.0 * hub.bolt_circle_radius)}"
-        if hub.bolts
-        else "no bolt circle"
+    def on_circle(ring: HoleRing, kind: str = "") -> str:
+        """Holes of one ring."""
+        size, place = _mm(2.0 * ring.hole_radius), _mm(2.0 * ring.circle_radius)
+        return f"{ring.count} {kind}holes {size} on a circle of {place}"
+
+    bolt_ring, holes = web.hub.bolt_ring, web.holes
+    bolts = "no bolt circle" if bolt_ring is None else on_circle(bolt_ring)
+    lightened = "" if holes is None else f" with {on_circle(holes, 'lightening ')}"
+    return (
+        f"web {_mm(web.thickness)}{lightened}, hub bore {_mm(2.0 * web.hub.bore_radius)}, {bolts}"
     )
-    thick, holes = f"web {_mm(web.thickness)}", web.holes
-    if holes is not None:
-        size, place = _mm(2.0 * holes.hole_radius), _mm(2.0 * holes.circle_radius)
-        thick += f" with {holes.count} lightening holes {size} on a circle of {place}"
-    return f"{thick}, hub bore {_mm(2.0 * hub.bore_radius)}, {bolts}"
 
 
 def _stock(outer_radius: float, inner_radius: float, length: float) -> str:

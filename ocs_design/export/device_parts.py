@@ -66,10 +66,9 @@ def foot_holes(device: Device) -> Mapping[str, tuple[tuple[float, float], ...]]:
     stands = device.layout.stands(device.incidence)
     for module in compress(device.modules, stands):
         slope = copysign(1.0, float(module.axis[0] * module.axis[1]))
-        x, y, _ = (float(value) for value in module.position)
-        holes[module.name] = tuple(
-            (x + side * slope * offset, y + side * offset) for side in (1.0, -1.0)
-        )
+        x, y, _ = module.position.tolist()
+        ends = offset, -offset
+        holes[module.name] = tuple((x + slope * end, y + end) for end in ends)
     return holes
 
 
@@ -104,12 +103,10 @@ class PedestalKind:
 
 def pedestal_kinds(device: Device) -> tuple[PedestalKind, ...]:
     """Pedestals grouped by shape."""
-    kinds: dict[bytes, tuple[Pedestal, ...]] = {}
-    for pedestal in device.pedestals:
-        shape = np.round(
-            [pedestal.lean, pedestal.middle, pedestal.thickness, pedestal.base], 9
-        ).tobytes()
-        kinds[shape] = (*kinds.get(shape, ()), pedestal)
+    kinds: dict[tuple[float, ...], tuple[Pedestal, ...]] = {}
+    for one in device.pedestals:
+        shape = tuple(np.round([one.lean, one.middle, one.thickness, one.base], 9).tolist())
+        kinds[shape] = (*kinds.get(shape, ()), one)
     if len(kinds) == 1:
         return (PedestalKind("pedestal", device.pedestals),)
     return tuple(PedestalKind(f"pedestal_{kind[0].module}", kind) for kind in kinds.values())

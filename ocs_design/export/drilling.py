@@ -13,25 +13,8 @@ from ocs_design.common.units import MILLIMETRES, format_quantity, round_outwards
 from ocs_design.device.joints import foot_screws
 from ocs_design.device.solids import foot_of
 from ocs_design.export.device_parts import foot_holes, trunk_holes
-from ocs_design.export.drawing.sheet import (
-    HEIGHT,
-    LEADING,
-    THIN,
-    WIDTH,
-    Area,
-    Circle,
-    Item,
-    Lettering,
-    Line,
-    Point,
-    Polyline,
-    arrow,
-    centre_lines,
-    horizontal_dimension,
-    outline,
-    rectangle,
-    wrapped,
-)
+from ocs_design.export.drawing import sheet
+from ocs_design.export.drawing.sheet import Area, Circle, Item, Lettering, Line, Point, Polyline
 from ocs_design.export.drawing.title_block import device_hash
 from ocs_design.export.formats import Subject
 from ocs_design.parts.carrier_plate import steepest
@@ -40,7 +23,7 @@ from ocs_design.parts.outline import flat_outline
 from ocs_design.parts.printed import TRUNK_SCREW
 from ocs_design.robot.manual import origin_by_hand
 
-SHEET = (15.0, 15.0, WIDTH - 15.0, HEIGHT - 30.0)
+SHEET = (15.0, 15.0, sheet.WIDTH - 15.0, sheet.HEIGHT - 30.0)
 """Left, top, right and bottom of the drawing area [mm]: within reach of printers, words below."""
 
 CHECK = 50.0
@@ -58,34 +41,18 @@ class Drilling:
     """Holes to drill in the trunk, and the outlines of the parts around them.
 
     Attributes:
-        robot: name of the robot.
-        frame: words on the frame of the coordinates.
         holes: positions of the holes to drill in the trunk [mm].
-        screw: screw for these holes.
-        reach: smallest and largest reach of the screws into the trunk [m].
         marks: holes with their coordinates, and the frame's axes [mm].
         around: feet and plate [mm].
-        standing: words on what the thin lines are.
-        upwards: whether the holes are in the trunk's back, with coordinates up and to the left;
-            else in its top, forward and to the left.
+        words: instructions, line by line.
         refused: that the device cannot be built, and why; then no hole may be drilled.
-        tilt: largest angle of the holes off square to a round trunk, which is drilled through a
-            block shaped to it [rad]; 0: the trunk is flat there.
-        identity: identifier of the design, as on the other sheets.
     """
 
-    robot: str
-    frame: str
     holes: tuple[Point, ...]
-    screw: Screw
-    reach: tuple[float, float]
     marks: tuple[Item, ...]
     around: tuple[Item, ...]
-    standing: str
-    upwards: bool
+    words: tuple[str, ...]
     refused: str
-    tilt: float
-    identity: str
 
     @property
     def items(self) -> tuple[Item, ...]:
@@ -93,49 +60,9 @@ class Drilling:
         return *self.marks, *self.around
 
     @property
-    def words(self) -> tuple[str, ...]:
-        """Instructions, line by line."""
-        back = ", z and y: its back, seen from behind" if self.upwards else ""
-        frame = f"coordinates in mm in {self.frame}{back}"
-        if self.refused:
-            return (
-                f"{self.robot}: drill nothing by this sheet. The device cannot be built as it "
-                "stands, and the cure may move its holes, or they lie off the trunk.",
-                f"At the crosses it would have {len(self.holes)} holes for {self.screw.name}; "
-                f"{frame}. Thin lines: {self.standing}. Design {self.identity}.",
-            )
-        ends = dict.fromkeys(f"{MILLIMETRES * length:.1f}" for length in self.reach)
-        # One pitch more than the screws' reach.
-        thread = round_outwards(self.reach[1] + self.screw.pitch, upwards=True, digits=2)
-        deep, blind = (
-            format_quantity(depth, "mm", digits=2)
-            for depth in (thread, thread + self.screw.diameter)
-        )
-        jig = []
-        if self.tilt > 0.0:
-            jig.append(
-                "Drill through the mast's block, held where it fits, in bushes: along the screws, "
-                f"up to {format_quantity(self.tilt, 'deg', digits=2)} off square. On curved "
-                "surfaces paper is inaccurate."
-            )
-        return (
-            f"{self.robot}: drill {len(self.holes)} holes of "
-            f"{MILLIMETRES * self.screw.tapping_drill:.3g} mm at the crosses, and tap "
-            f"{self.screw.name}; {frame}.",
-            *jig,
-            f"The screws go {' to '.join(ends)} mm into the trunk: thread at least {deep} deep, "
-            f"the hole through the wall or {blind} deep. First check what is behind the wall.",
-            f"In a wall thinner than {MILLIMETRES * self.screw.diameter:.3g} mm, a print or "
-            f"carbon: drill {MILLIMETRES * self.screw.clearance_hole:.3g} mm through, nuts and "
-            "washers behind, screws longer by both and by the wall.",
-            "The trunk is assumed to be aluminium: robot files do not say. Thin lines: "
-            f"{self.standing}. Design {self.identity}.",
-        )
-
-    @property
     def verdict(self) -> list[str]:
         """Lines across the sheet on why the device cannot be built; empty if it can."""
-        return wrapped(self.refused, SHEET[2] - SHEET[0], _VERDICT)
+        return sheet.wrapped(self.refused, SHEET[2] - SHEET[0], _VERDICT)
 
 
 def drilling_of(subject: Subject) -> Drilling | None:
@@ -164,65 +91,98 @@ def drilling_of(subject: Subject) -> Drilling | None:
         thread = plate.screw
         lengths_and_gaps = zip(plate.screw_lengths, plate.gaps, strict=True)
         reach = [length - plate.clamped - gap for length, gap in lengths_and_gaps]
-    radius = MILLIMETRES * thread.tapping_drill / 2.0
-    marks: list[Item] = [
-        *centre_lines((0.0, 0.0), 3.0 * CROSS),
-        arrow((3.0 * CROSS, 0.0), (1.0, 0.0)),
-    ]
-    marks.append(Lettering((3.0 * CROSS, -1.0), "forward" if mast is None else "up", 2.5))
+    radius, ahead = MILLIMETRES * thread.tapping_drill / 2.0, 3.0 * CROSS
+    marks: list[Item] = [*sheet.centre_lines((0.0, 0.0), ahead)]
+    marks.append(sheet.arrow((ahead, 0.0), (1.0, 0.0)))
+    marks.append(Lettering((ahead, -1.0), "forward" if mast is None else "up", 2.5))
     for hole in holes:
-        words = Lettering(
-            (hole[0] + radius, hole[1] - radius - 1.0), f"{hole[0]:.1f}, {hole[1]:.1f}", 1.8
-        )
-        marks += [Circle(hole, radius), *centre_lines(hole, radius + CROSS), words]
+        x, y = hole
+        at = Lettering((x + radius, y - radius - 1.0), f"{x:.1f}, {y:.1f}", 1.8)
+        marks += [Circle(hole, radius), *sheet.centre_lines(hole, radius + CROSS), at]
     items: list[Item] = []
     for module in on_trunk if mast is None else ():
         (middle,) = _millimetres([(float(module.position[0]), float(module.position[1]))])
         base = MILLIMETRES * foot.base_radius
-        items += [Circle(middle, base, THIN), *centre_lines(middle, CROSS)]
-        items.append(
-            Lettering((middle[0] + base / 2.0, middle[1]), part_name("foot", module.name), 2.5)
-        )
+        name = Lettering((middle[0] + base / 2.0, middle[1]), part_name("foot", module.name), 2.5)
+        items += [Circle(middle, base, sheet.THIN), *sheet.centre_lines(middle, CROSS), name]
     for pedestal in device.pedestals:
         side = pedestal.width / 2.0
         near_end, far_end = -pedestal.flange, pedestal.length + pedestal.flange
-        around = *rectangle(-side, near_end, side, far_end), (0.0, pedestal.length / 2.0)
+        around = *sheet.rectangle(-side, near_end, side, far_end), (0.0, pedestal.length / 2.0)
         *rim, inside = _millimetres(pedestal.in_base(around))
-        items.append(Polyline((*rim, rim[0]), THIN))
+        items.append(Polyline((*rim, rim[0]), sheet.THIN))
         items.append(Lettering(inside, part_name("pedestal", pedestal.module), 2.5))
     if plate is not None and mast is not None:
         low, high = (MILLIMETRES * (plate.position[2] + end) for end in (mast.low, mast.high))
         half = MILLIMETRES * mast.side / 2.0
         ends = (low, -half), (high, -half), (high, half), (low, half)
-        items.append(Polyline((*ends, ends[0]), THIN))
+        items.append(Polyline((*ends, ends[0]), sheet.THIN))
     elif plate is not None:
         for shape in plate.shapes:
             corners = _millimetres((flat_outline(shape.outline()) + plate.position[:2]).tolist())
-            items.append(Polyline((*corners, corners[0]), THIN))
-        items += [Circle(foot_hole, radius, THIN) for foot_hole in _millimetres(feet)]
+            items.append(Polyline((*corners, corners[0]), sheet.THIN))
+        items += [Circle(foot_hole, radius, sheet.THIN) for foot_hole in _millimetres(feet)]
     stands = {
         "feet": standing and mast is None,
         "pedestals": device.pedestals,
         "plate with its threads": plate is not None and mast is None,
         "mast": mast is not None,
     }
-    frame = f"the frame of {subject.base.trunk}"
+    thin = " and ".join(name for name, there in stands.items() if there)
+    words = tuple(_instructions(subject, thread, len(holes), (min(reach), max(reach)), thin))
+    return Drilling(holes, tuple(marks), tuple(items), words, subject.refused)
+
+
+def _instructions(
+    subject: Subject, screw: Screw, count: int, reach: tuple[float, float], thin: str
+) -> Iterator[str]:
+    """Instructions for so many holes, line by line.
+
+    Args:
+        subject: with the device. screw, count: of the holes. thin: words on what thin lines are.
+        reach: smallest and largest reach of the screws into the trunk [m].
+    """
+    plate, name = subject.device.plate, subject.name
+    frame = f"coordinates in mm in the frame of {subject.base.trunk}"
     if subject.base.com is not None:
         frame += f", whose origin is {origin_by_hand(subject.base.com)}"
-    return Drilling(
-        subject.name,
-        frame,
-        holes,
-        thread,
-        (min(reach), max(reach)),
-        tuple(marks),
-        tuple(items),
-        " and ".join(name for name, there in stands.items() if there),
-        upwards=mast is not None,
-        refused=subject.refused,
-        tilt=0.0 if plate is None or plate.relief is None else steepest(plate),
-        identity=device_hash(device),
+    if plate is not None and plate.mast is not None:
+        frame += ", z and y: its back, seen from behind"
+    thin += f". Design {device_hash(subject.device)}."
+    if subject.refused:
+        yield (
+            f"{name}: drill nothing by this sheet. The device cannot be built as it "
+            "stands, and the cure may move its holes, or they lie off the trunk."
+        )
+        crosses = f"At the crosses it would have {count} holes for {screw.name}"
+        yield f"{crosses}; {frame}. Thin lines: {thin}"
+        return
+    yield (
+        f"{name}: drill {count} holes of {MILLIMETRES * screw.tapping_drill:.3g} mm at the "
+        f"crosses, and tap {screw.name}; {frame}."
     )
+    if plate is not None and plate.relief is not None and steepest(plate) > 0.0:
+        yield (
+            "Drill through the mast's block, held where it fits, in bushes: along the screws, "
+            f"up to {format_quantity(steepest(plate), 'deg', digits=2)} off square. On curved "
+            "surfaces paper is inaccurate."
+        )
+    ends = dict.fromkeys(f"{MILLIMETRES * length:.1f}" for length in reach)
+    # One pitch more than the screws' reach.
+    thread = round_outwards(reach[1] + screw.pitch, upwards=True, digits=2)
+    deep, blind = (
+        format_quantity(depth, "mm", digits=2) for depth in (thread, thread + screw.diameter)
+    )
+    yield (
+        f"The screws go {' to '.join(ends)} mm into the trunk: thread at least {deep} deep, "
+        f"the hole through the wall or {blind} deep. First check what is behind the wall."
+    )
+    yield (
+        f"In a wall thinner than {MILLIMETRES * screw.diameter:.3g} mm, a print or "
+        f"carbon: drill {MILLIMETRES * screw.clearance_hole:.3g} mm through, nuts and "
+        "washers behind, screws longer by both and by the wall."
+    )
+    yield f"The trunk is assumed to be aluminium: robot files do not say. Thin lines: {thin}"
 
 
 def _millimetres(places: Iterable[Point] | list[list[float]]) -> tuple[Point, ...]:
@@ -235,7 +195,11 @@ def pages(drilling: Drilling) -> Iterator[list[Item]]:
     If one sheet is too small, feet and plate are shown only near the holes.
     """
     left, top, right, bottom = SHEET
-    top += LEADING * len(drilling.verdict)
+    top += sheet.LEADING * len(drilling.verdict)
+    margins = (
+        *((0.0, 0.0, sheet.WIDTH, top), (0.0, 0.0, left, sheet.HEIGHT)),
+        *((right, 0.0, sheet.WIDTH, sheet.HEIGHT), (0.0, bottom, sheet.WIDTH, sheet.HEIGHT)),
+    )
     width, height = right - left, bottom - top
     for shown in (drilling.items, drilling.marks):
         back, rightmost, front, leftmost = bounds(shown)
@@ -267,23 +231,15 @@ def pages(drilling: Drilling) -> Iterator[list[Item]]:
                 *(_on_paper(item, offset) for item in drilling.around),
                 # Thin lines end at the coordinates of a hole.
                 *(
-                    Area(rectangle(x, y - item.height, x + item.width, y), white=True)
+                    Area(sheet.rectangle(x, y - item.height, x + item.width, y), white=True)
                     for item in marks
                     if isinstance(item, Lettering)
                     for x, y in [item.start]
                 ),
                 *marks,
                 # Hides what is beyond the frame: it continues on another sheet, or is cropped.
-                *(
-                    Area(rectangle(*margin), white=True)
-                    for margin in (
-                        (0.0, 0.0, WIDTH, top),
-                        (0.0, 0.0, left, HEIGHT),
-                        (right, 0.0, WIDTH, HEIGHT),
-                        (0.0, bottom, WIDTH, HEIGHT),
-                    )
-                ),
-                *outline(rectangle(left, top, right, bottom), THIN),
+                *(Area(sheet.rectangle(*margin), white=True) for margin in margins),
+                *sheet.outline(sheet.rectangle(left, top, right, bottom), sheet.THIN),
                 *_words(drilling, number, across * along),
             ]
 
@@ -291,7 +247,7 @@ def pages(drilling: Drilling) -> Iterator[list[Item]]:
 def _words(drilling: Drilling, number: int, count: int) -> Iterator[Item]:
     left, top, _, bottom = SHEET
     for line, text in enumerate(drilling.verdict):
-        yield Lettering((left, top + line * LEADING), text, _VERDICT)
+        yield Lettering((left, top + line * sheet.LEADING), text, _VERDICT)
     words = [
         *drilling.words,
         "Print at 100 %, without fitting it to the page, and measure the 50 mm.",
@@ -299,11 +255,12 @@ def _words(drilling: Drilling, number: int, count: int) -> Iterator[Item]:
     if count > 1:
         words[-1] += f" Sheet {number} of {count}: cut along the frame and join edge to edge."
     for line, text in enumerate(words):
-        yield Lettering((left + CHECK + 5.0, bottom + (line + 1) * LEADING), text, 2.2)
-    y = bottom + 3.0 * LEADING
-    yield from horizontal_dimension("", left=left, right=left + CHECK, y=y, text_x=left + CHECK)
+        yield Lettering((left + CHECK + 5.0, bottom + (line + 1) * sheet.LEADING), text, 2.2)
+    y = bottom + 3.0 * sheet.LEADING
+    end = left + CHECK
+    yield from sheet.horizontal_dimension("", left=left, right=end, y=y, text_x=end)
     yield Lettering((left + CHECK / 2.0 - 5.0, y - 1.0), f"{CHECK:.0f} mm")
-    for x in (left, left + CHECK):
+    for x in (left, end):
         yield Line((x, y - 3.0), (x, y + 3.0))
 
 

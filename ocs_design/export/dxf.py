@@ -103,12 +103,10 @@ def drilling_text(drilling: Drilling) -> str:
         _add_text(space, drilling.refused, (-CHECK / 2.0, high + GAP / 2.0), 2.5)
     for line, words in enumerate(drilling.words, start=1):
         _add_text(space, words, (-CHECK / 2.0, low - line * GAP / 2.0), 2.5)
-    y = low - 3.0 * GAP
-    for start, end in (
-        ((-CHECK / 2.0, y), (CHECK / 2.0, y)),
-        *(((x, y - 2.0), (x, y + 2.0)) for x in (-CHECK / 2.0, CHECK / 2.0)),
-    ):
-        space.add_line(start, end, dxfattribs={"layer": TEXT})
+    y, half = low - 3.0 * GAP, CHECK / 2.0
+    ends = ((x, y - 2.0, x, y + 2.0) for x in (-half, half))
+    for left, bottom, right, top in ((-half, y, half, y), *ends):
+        space.add_line((left, bottom), (right, top), dxfattribs={"layer": TEXT})
     _add_text(space, f"{CHECK:.0f} mm", (-4.0, y + 1.0), 2.5)
     return _text_of(document)
 

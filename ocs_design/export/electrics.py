@@ -21,10 +21,8 @@ def controllers(motor: Drive) -> str:
         return ""
     # A saturated motor draws more than its k_t implies.
     more = "more than " if _saturates(motor) else ""
-    amplitude, effective = (
-        current / six_step_current(1.0, kind)
-        for kind in (TorqueConstantConvention.FOC, TorqueConstantConvention.FOC_RMS)
-    )
+    kinds = TorqueConstantConvention.FOC, TorqueConstantConvention.FOC_RMS
+    amplitude, effective = (current / six_step_current(1.0, kind) for kind in kinds)
     return (
         f"at least {more}{_ceil(current)} A through two lines (six-step), which field-oriented "
         f"control counts as {_ceil(amplitude)} A of amplitude or {_ceil(effective)} A rms of a "
@@ -35,11 +33,10 @@ def controllers(motor: Drive) -> str:
 def battery(motor: Drive, margins: Sequence[Margin]) -> str:
     """Current, power and energy that the battery gives and takes back; empty if unknown."""
     voltage, parts = motor.bus_voltage, []
-    for does, way in (("gives", "drawn"), ("takes back", "fed back")):
-        # The current drawn may be recorded without a direction.
-        whole = ("",) if way == "drawn" else ()
+    # The current drawn may be recorded without a direction.
+    for does, ways in (("gives", ("", ", drawn")), ("takes back", (", fed back",))):
         current, power = (
-            demand_of(margins, *(f"bus {what}{end}" for end in (*whole, f", {way}")))
+            demand_of(margins, *(f"bus {what}{way}" for way in ways))
             for what in ("current", "power")
         )
         if current is not None:
@@ -63,12 +60,12 @@ def wiring_parts(device: Device, margins: Sequence[Margin]) -> Iterator[tuple[st
     if voltage is None:
         return
     bus = _bus_current(margins)
-    rated = f"{_ceil(VOLTAGE_RESERVE * voltage)} V DC or more"
-    flows = (
-        f"rated for {rated}"
-        if bus is None
-        else f"{_ceil(bus)} A for the length of a maneuver; rated for {rated}"
-    )
+    rated, fuse = f"{_ceil(VOLTAGE_RESERVE * voltage)} V DC or more", ""
+    flows = f"rated for {rated}"
+    if bus is not None:
+        flows = f"{_ceil(bus)} A for the length of a maneuver; {flows}"
+        usual = next((rating for rating in FUSES if rating >= bus), _ceil(bus))
+        fuse = f"; the next usual rating is {usual} A"
     fastest = motor.top_speed * motor.gear_ratio
     up_to = f", up to {rpm(fastest)}" if math.isfinite(fastest) else ""
     yield (
@@ -77,27 +74,16 @@ def wiring_parts(device: Device, margins: Sequence[Margin]) -> Iterator[tuple[st
         "encoder at the motor's back with its magnet, or Hall sensors, that the controller "
         f"reads{up_to}; not needed if the motor has one",
     )
-    fuse = ""
-    if bus is not None:
-        usual = next((rating for rating in FUSES if rating >= bus), _ceil(bus))
-        fuse = f"; the next usual rating is {usual} A"
     yield "fuse with holder", 1, f"between battery and switch: {flows}{fuse}"
     yield "switch", 1, f"within reach; carries and breaks {flows}"
     yield "bus cables, two wires", 1, f"battery to controllers, short: {flows}"
     least = "" if current is None else f": each wire for {_ceil(current)} A at the torque limit"
     yield "motor cables, three wires", count, f"controller to motor{least}; plus the sensor's cable"
-    yield (
-        "connectors, a set",
-        1,
-        f"for bus, motors and sensors: rated as their cables, for {rated}",
-    )
+    set_of = f"for bus, motors and sensors: rated as their cables, for {rated}"
+    yield "connectors, a set", 1, set_of
     yield "cable ties, a set", 1, "hold controllers on the feet, and wires clear of the wheels"
-    yield (
-        "IMU",
-        1,
-        "attitude and rate of the trunk, which the wheel law needs in every period; not needed if "
-        "the robot has one",
-    )
+    measured = "attitude and rate of the trunk, which the wheel law needs in every period"
+    yield "IMU", 1, f"{measured}; not needed if the robot has one"
 
 
 FUSES = (10, 15, 20, 25, 30, 40, 50, 60, 70, 80, 100, 125, 150, 175, 200, 250, 300, 400, 500)
@@ -111,13 +97,12 @@ def wiring(device: Device, margins: Sequence[Margin]) -> Iterator[str]:
     counted = "but controllers are" if motor.controller_mass > 0.0 else "nor are controllers"
     if motor.bus_voltage is None:
         return
-    controllers_text = "a controller next to the motor"
+    on_bus, which = "a controller next to the motor", "the"
     if count > 1:
-        controllers_text = f"one bus for all - {count} controllers, each next to its motor"
+        on_bus, which = f"one bus for all - {count} controllers, each next to its motor", "each"
     yield (
-        f"Battery ({motor.bus_voltage:g} V) - fuse and switch - "
-        f"{controllers_text} - three wires to {'the' if count == 1 else 'each'} motor. "
-        "Keep the bus short: its inductance adds to every spike."
+        f"Battery ({motor.bus_voltage:g} V) - fuse and switch - {on_bus} - three wires to {which} "
+        "motor. Keep the bus short: its inductance adds to every spike."
     )
     if rating:
         yield f"Controllers, {count}: {rating}. They take torque (current) commands."
@@ -139,10 +124,8 @@ def wiring(device: Device, margins: Sequence[Margin]) -> Iterator[str]:
         f"{counted}: add what is not to the robot's file."
     )
     if gives:
-        yield (
-            f"The battery, for all motors together, {gives}. Choose cables and fuse for this "
-            "current."
-        )
+        together = f"The battery, for all motors together, {gives}"
+        yield f"{together}. Choose cables and fuse for this current."
     limits = []
     if supply is not None and math.isfinite(supply.current_max):
         limits.append(f"{significant(supply.current_max, 3)} A")
@@ -172,12 +155,11 @@ def _settings(motor: Drive) -> Iterator[str]:
         return
     per_amplitude = k_t * six_step_current(1.0, TorqueConstantConvention.FOC)
     fastest, idle = motor.gear_ratio * motor.top_speed, motor.no_load_current
-    limits = [f"{_ceil(current)} A through two lines"]
+    limits, friction = [f"{_ceil(current)} A through two lines"], ""
     if math.isfinite(fastest):
         limits.append(rpm(fastest))
-    friction = (
-        "" if not idle else f" Friction takes another {idle:g} A in the direction of rotation."
-    )
+    if idle:
+        friction = f" Friction takes another {idle:g} A in the direction of rotation."
     yield (
         "Set each controller to torque mode, with zero torque if no command arrives for two "
         f"periods. Its values: {significant(k_t, 4)} N m/A through two lines "

@@ -127,16 +127,14 @@ class _Scene:
             if surface_mesh is None:
                 return None
             # A surface that meshes may share, keyed by its vertices and faces.
-            vertices = np.ascontiguousarray(surface_mesh.vertices, dtype="<f4")
+            vertices, corners = surface_mesh.vertices.astype("<f4"), surface_mesh.triangles
             small = len(vertices) <= _MOST_UINT16
-            corners = np.ascontiguousarray(
-                surface_mesh.triangles, dtype="<u2" if small else "<u4"
-            ).ravel()
+            width, form = (_UINT16, "<u2") if small else (_UINT32, "<u4")
             points = self._accessor(vertices.tobytes(), _VERTICES, _FLOAT, len(vertices), "VEC3")
             self._accessors[points]["min"] = vertices.min(axis=0).tolist()
             self._accessors[points]["max"] = vertices.max(axis=0).tolist()
-            width = _UINT16 if small else _UINT32
-            faces = self._accessor(corners.tobytes(), _INDICES, width, corners.size, "SCALAR")
+            content = corners.astype(form).tobytes()
+            faces = self._accessor(content, _INDICES, width, corners.size, "SCALAR")
             self._surfaces[key] = points, faces
         surface, name = self._surfaces[key], model.geom(geom).name or f"geom{geom}"
         if (surface, color) not in self._mesh_of:

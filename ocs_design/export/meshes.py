@@ -65,21 +65,14 @@ def part_mesh(part: Part, sections: int = SECTIONS) -> Mesh:
     if len(part.joined) == 1 and not part.cut:
         return solid_mesh(part.joined[0], sections)
     mesh = part_manifold(part, sections).to_mesh64()
-    return Mesh(
-        np.asarray(mesh.vert_properties, dtype=np.float64),
-        np.asarray(mesh.tri_verts, dtype=np.int64),
-    )
+    return Mesh(np.asarray(mesh.vert_properties), np.asarray(mesh.tri_verts, dtype=np.int64))
 
 
 def merged(meshes: Sequence[Mesh]) -> Mesh:
     """Several meshes merged into one."""
     starts = accumulate((len(mesh.vertices) for mesh in meshes), initial=0)
-    return Mesh(
-        np.concatenate([mesh.vertices for mesh in meshes]),
-        np.concatenate(
-            [mesh.triangles + start for mesh, start in zip(meshes, starts, strict=False)]
-        ),
-    )
+    faces = [mesh.triangles + start for mesh, start in zip(meshes, starts, strict=False)]
+    return Mesh(np.concatenate([mesh.vertices for mesh in meshes]), np.concatenate(faces))
 
 
 def part_manifold(part: Part, sections: int = SECTIONS) -> "Manifold":
@@ -107,15 +100,11 @@ def solid_mesh(solid: Solid, sections: int = SECTIONS) -> Mesh:
         case Prism():
             from manifold3d import triangulate  # noqa: PLC0415 - robot files need no prisms
 
-            ring = flat_outline(solid.outline, sections)
-            ends = triangulate([ring])
-            low, high = (
-                np.column_stack([ring, np.full(len(ring), height)])
-                for height in (solid.low, solid.high)
-            )
+            ring, place = flat_outline(solid.outline, sections), solid.placement
+            ends, around = triangulate([ring]), np.ones((len(ring), 1))
+            low, high = (np.hstack([ring, end * around]) for end in (solid.low, solid.high))
             sides = _sides(low[None], high[None])
             corners = np.concatenate([sides, low[ends[:, ::-1]], high[ends]])
-            place = solid.placement
             return Mesh.of_corners(np.asarray(corners @ place.rotation.T + place.position))
         case Relief():
             if not solid.holes:
@@ -152,11 +141,9 @@ def _relief_mesh(relief: Relief) -> Mesh:
 
 def _revolved(profile: FloatArray, sections: int) -> FloatArray:
     """Triangle corners of a closed profile, r and z, revolved about z; some may be degenerate."""
-    radii, heights = profile.T
-    ring = ring_points(2.0 * pi * np.arange(sections) / sections)
-    plane = radii[:, None, None] * ring
-    height = np.broadcast_to(heights[:, None, None], (*plane.shape[:2], 1))
-    vertices = np.concatenate([plane, height], axis=2)
+    radii, heights = profile.T[:, :, None, None]
+    plane = radii * ring_points(2.0 * pi * np.arange(sections) / sections)
+    vertices = np.concatenate([plane, heights + 0.0 * plane[:, :, :1]], axis=2)
     return _sides(vertices, np.roll(vertices, -1, axis=0))
 
 

@@ -110,41 +110,40 @@ def readme(subject: Subject, data: mujoco.MjData, file: str, picture: str) -> st
     robot, device, model = subject.carrier, subject.device, model_of(subject)
     motor, wheel, torque = device.motor, device.flywheel, largest_torque(device.motor)
     speed, legs = motor.top_speed, leg_joints(robot)
+    axes = (
+        ", ".join(significant(part + 0.0, 4) for part in m.axis.tolist()) for m in device.modules
+    )
+    fastest, strongest = "not limited", "not limited"
+    if np.isfinite(speed):
+        fastest = f"{rpm(speed)} ({format_quantity(speed, 'rad/s')}), {motor.top_speed_reason}"
+    if torque is not None:
+        strongest = format_quantity(torque, "N m")
+    inertia = "inertia of a wheel about its axis, rotor included"
     figures = {
         "mass of the robot with its device": format_quantity(robot.mass + device.mass, "kg"),
         "mass of the device": format_quantity(device.mass, "g"),
         "wheel": f"{format_quantity(2.0 * wheel.outer_radius, 'mm')} in diameter, "
         f"{format_quantity(wheel.height, 'mm')} high, {wheel.material}, "
         f"{format_quantity(wheel.mass, 'g')}",
-        "inertia of a wheel about its axis, rotor included": format_quantity(
-            wheel.spin_inertia, "kg m2"
-        ),
-        "axes of the wheels in the base frame": ", ".join(
-            "({})".format(", ".join(significant(float(part) + 0.0, 4) for part in module.axis))
-            for module in device.modules
-        ),
+        inertia: format_quantity(wheel.spin_inertia, "kg m2"),
+        "axes of the wheels in the base frame": ", ".join(f"({axis})" for axis in axes),
         "motor": motor.full_name + ("" if motor.gear == DIRECT.name else f" with {motor.gear}"),
-        "highest speed of a wheel": "not limited"
-        if np.isinf(speed)
-        else f"{rpm(speed)} ({format_quantity(speed, 'rad/s')}), {motor.top_speed_reason}",
-        "largest torque of a motor": "not limited"
-        if torque is None
-        else format_quantity(torque, "N m"),
+        "highest speed of a wheel": fastest,
+        "largest torque of a motor": strongest,
         "standing height of the trunk's frame": format_quantity(float(data.site(IMU).xpos[2]), "m"),
     }
-    own_actuators = (
-        "The robot's own actuators, unchanged; `ocs_home` has commands for those on joints."
-    )
-    drives = (
-        f"{len(legs)} position servos, one for each leg joint and named after it: kp from weight "
-        "and length of the leg, kv from its Froude time, the force limited to the file's effort. "
-        "The flights use the same."
-    )
-    held_joints = [
-        equality.name for equality in model.spec.equalities if equality.name.startswith(HOLD)
-    ]
+    drives = "The robot's own actuators, unchanged; `ocs_home` has commands for those on joints."
+    if model.driven:
+        drives = (
+            f"{len(legs)} position servos, one for each leg joint and named after it: kp from "
+            "weight and length of the leg, kv from its Froude time, the force limited to the "
+            "file's effort. The flights use the same."
+            if legs
+            else "None was recognised."
+        )
+    held = sum(equality.name.startswith(HOLD) for equality in model.spec.equalities)
     others = (
-        f"- **Other joints.** {len(held_joints)} joints outside the legs are held in the posture "
+        f"- **Other joints.** {held} joints outside the legs are held in the posture "
         f"by the equalities `{HOLD}...`, as in the flights. Disable them to drive these joints.\n"
     )
     values = {
@@ -160,8 +159,8 @@ def readme(subject: Subject, data: mujoco.MjData, file: str, picture: str) -> st
         "stands": "It stands by itself."
         if len(robot.legs) >= STEADY_LEGS
         else "On fewer than three legs it does not balance by itself, and falls.",
-        "legs": (drives if legs else "None was recognised.") if model.driven else own_actuators,
-        "others": others if held_joints else "",
+        "legs": drives,
+        "others": others if held else "",
         "contact": "The robot's own contacts are as in its file"
         if robot.format is RobotFormat.MJCF
         else "Links collide with floors and objects, not with each other, as in the flights",
@@ -197,11 +196,7 @@ def precise_xml(spec: mujoco.MjSpec, model: mujoco.MjModel, *, assets: str) -> s
             continue
         elements = [e for e in top.iter() if e is not top and (e.tag in tags or not tags)]
         # Matched by name if there is one, else by position.
-        named = {
-            name: element_object
-            for element_object in objects
-            if (name := getattr(element_object, "name", ""))
-        }
+        named = {each.name: each for each in objects if getattr(each, "name", "")}
         for element, same_place in zip(elements, objects, strict=False):
             source = named.get(element.get("name", ""), same_place)
             sources = [source]

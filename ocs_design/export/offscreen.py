@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.device.bodies import IMU
-from ocs_design.export.raster import png_bytes
+from ocs_design.export.raster import png_bytes, view_of
 
 FIELD_OF_VIEW = 30.0
 """Vertical field of view of perspective views [deg]."""
@@ -137,14 +137,13 @@ def _camera(model: mujoco.MjModel, view: View, box: Box) -> mujoco.MjvCamera:
         return camera
     # Distance from which all corners of the box are in view.
     azimuth, elevation = np.radians([view.azimuth, view.elevation])
-    right = np.array([np.sin(azimuth), -np.cos(azimuth), 0.0])
-    level = np.array([np.cos(azimuth), np.sin(azimuth), 0.0])
-    forward = np.cos(elevation) * level + np.sin(elevation) * np.array([0.0, 0.0, 1.0])
+    c, s = np.cos(elevation), np.sin(elevation)
+    eye = -c * np.cos(azimuth), -c * np.sin(azimuth), -s
+    right, up, towards = view_of(eye, (0.0, 0.0, 1.0))
     corners = size / 2.0 * np.array(list(product((-1.0, 1.0), repeat=3)))
     tangent = np.tan(np.radians(FIELD_OF_VIEW / 2.0))
-    sideways = np.abs(corners @ right) * HEIGHT / WIDTH
-    upwards = np.abs(corners @ np.cross(right, forward))
-    away = ROOM * np.maximum(sideways, upwards) / tangent - corners @ forward
+    sideways, upwards = np.abs(corners @ right) * HEIGHT / WIDTH, np.abs(corners @ up)
+    away = ROOM * np.maximum(sideways, upwards) / tangent + corners @ towards
     camera.distance = float(np.max(away))
     model.vis.global_.fovy = FIELD_OF_VIEW
     return camera

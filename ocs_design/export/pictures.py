@@ -39,14 +39,11 @@ def draw_pictures(device: Device, robot: Robot, model: RobotModel) -> dict[str, 
     Raises:
         MissingToolError: OpenGL does not work here.
     """
-    shown = [
+    shown = []
+    for name, (part, place) in placed_parts(device).items():
         # The housing is transparent.
-        (
-            part_mesh(part).placed(place),
-            SHELL if name in {"drum", "lid"} else piece_color(device, name),
-        )
-        for name, (part, place) in placed_parts(device).items()
-    ]
+        color = SHELL if name in {"drum", "lid"} else piece_color(device, name)
+        shown.append((part_mesh(part).placed(place), color))
     # The wheel's pieces come first.
     takes = {"wheel": parts_take(shown[: len(wheel_pieces(device.flywheel))])}
     if not device.wheels_alone:
@@ -74,12 +71,8 @@ def parts_take(shown: Sequence[tuple[Mesh, Color]]) -> Take:
     add_white_sky(spec)
     body = spec.worldbody.add_body(quat=_MODULE_ON_ROBOT)
     for index, (mesh, color) in enumerate(shown):
-        name = f"part{index}"
-        spec.add_mesh(
-            name=name,
-            uservert=mesh.vertices.ravel(),
-            userface=mesh.triangles.ravel().astype(np.int32),
-        )
+        name, faces = f"part{index}", mesh.triangles.ravel().astype(np.int32)
+        spec.add_mesh(name=name, uservert=mesh.vertices.ravel(), userface=faces)
         body.add_geom(type=mujoco.mjtGeom.mjGEOM_MESH, meshname=name, rgba=color)
     model = spec.compile()
     return Take(model, model.qpos0[None])

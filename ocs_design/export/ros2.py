@@ -46,9 +46,7 @@ def write(subject: Subject, folder: Path) -> Notes:
     declared = '<?xml version="1.0" encoding="utf-8"?>\n'
     described = declared + ET.tostring(urdf, encoding="unicode") + "\n"
     # A robot may already use ros2_control, where a joint in two systems is an error.
-    taken = {
-        joint.get("name") for system in urdf.iter("ros2_control") for joint in system.iter("joint")
-    }
+    taken = {joint.get("name") for joint in urdf.findall(".//ros2_control//joint")}
     children = {child.get("link") for child in urdf.findall("joint/child")}
     links = (link.get("name", "") for link in urdf.findall("link"))
     values = {
@@ -72,10 +70,8 @@ def write(subject: Subject, folder: Path) -> Notes:
             command = "position" if joint.mimic is None else ""
             controls.append(control_joint(quoted(name), command, bounds, robot.posture[name]))
     controls += control_wheels(device, joint_names(device))
-    system = fill(
-        "ros2_control.urdf",
-        {"name": "${name}", "plugin": "${hardware_plugin}", "joints": "".join(controls)},
-    )
+    system = {"name": "${name}", "plugin": "${hardware_plugin}", "joints": "".join(controls)}
+    values["system"] = fill("ros2_control.urdf", system)
     texts = {
         "package.xml": fill("ros2/package.xml", values),
         "CMakeLists.txt": fill("ros2/CMakeLists.txt", values),
@@ -85,17 +81,13 @@ def write(subject: Subject, folder: Path) -> Notes:
         f"urdf/{file}.urdf": described,
         f"urdf/{file}.urdf.xacro": fill("ros2/robot.urdf.xacro", values),
         "urdf/ocs.urdf.xacro": snippet_xacro(device, subject.base),
-        f"urdf/{file}.ros2_control.xacro": fill(
-            "ros2/ros2_control.xacro", {**values, "system": system}
-        ),
+        f"urdf/{file}.ros2_control.xacro": fill("ros2/ros2_control.xacro", values),
     }
     for place, text in texts.items():
         (root / place).write_text(text, encoding="utf-8", newline="\n")
-    notes = ["package.xml has no maintainer and no license yet: add yours"]
-    if lost:
-        remark = f"{len(lost)} meshes that were not found: {', '.join(lost)}"
-        notes.append(f"the ROS 2 package lacks {remark}")
-    return tuple(notes)
+    note = "package.xml has no maintainer and no license yet: add yours"
+    remark = f"{len(lost)} meshes that were not found: {', '.join(lost)}"
+    return (note, f"the ROS 2 package lacks {remark}") if lost else (note,)
 
 
 def package_name(robot: str) -> str:

@@ -113,21 +113,16 @@ def _macro_wheels(device: Device) -> dict[str, str]:
     for module in device.modules:
         pair, name = device.layout == PAIR, module.name
         place = f"{name}_position" if pair else f"position_{name}"
-        what[place] = f"centre of the {name} flywheel" if pair else f"centre of flywheel {name}"
+        wheel = f"the {name} flywheel" if pair else f"flywheel {name}"
+        what[place] = f"centre of {wheel} in that frame"
         params.append(f"{place}:='{numbers(module.position)}'")
         rpy = turns[name] if pair else numbers(bodies.wheel_rpy(module.axis))
         wheels.append(
             f'    <xacro:ocs_flywheel side="{name}" rpy="{rpy}" position="${{{place}}}" '
             'parent="${prefix}ocs_base" prefix="${prefix}"/>\n'
         )
-    words = (
-        f"  {name:<15} {text}{' in that frame' * ('centre' in text)}" for name, text in what.items()
-    )
-    return {
-        "arguments": "\n".join(words) + "\n",
-        "params": " ".join(params),
-        "wheels": "".join(wheels),
-    }
+    words = "".join(f"  {name:<15} {text}\n" for name, text in what.items())
+    return {"arguments": words, "params": " ".join(params), "wheels": "".join(wheels)}
 
 
 def _macro_carrier(device: Device) -> str:
@@ -143,27 +138,21 @@ def _macro_carrier(device: Device) -> str:
         """The common value, or an expression for that of each side."""
         if len({*values}) == 1:
             return values[0]
-        chain = (
-            f"'{value}' if side == {side} else " for value, side in zip(values, sides, strict=True)
-        )
-        return "${" + "".join([*chain][:-1]) + f"'{values[-1]}'" + "}"
+        pairs = zip(values, sides[:-1], strict=False)
+        chain = "".join(f"'{value}' if side == {side} else " for value, side in pairs)
+        return f"${{{chain}'{values[-1]}'}}"
 
-    sided = {
-        name: by_side([values[name] for values in values_of_modules])
-        for name in values_of_modules[0]
-    }
+    names = values_of_modules[0]
+    sided = {name: by_side([values[name] for values in values_of_modules]) for name in names}
     looks = [visuals_urdf(plain_visuals(device, module)) for module in device.modules]
-    if len({*looks}) == 1:
-        visuals = looks[0]
-    else:
+    visuals = looks[0]
+    if len({*looks}) > 1:
         visuals = "".join(
             f'    <xacro:if value="${{side == {side}}}">\n{look}    </xacro:if>\n'
             for side, look in zip(sides, looks, strict=True)
         )
-    return fill(
-        "carrier.urdf",
-        {**_MACRO_PLACE, **sided, "link": "${prefix}ocs_${side}_motor", "visuals": visuals},
-    )
+    link = "${prefix}ocs_${side}_motor"
+    return fill("carrier.urdf", {**_MACRO_PLACE, **sided, "link": link, "visuals": visuals})
 
 
 def snippet_ros2_control(device: Device) -> str:
@@ -177,47 +166,48 @@ def snippet_mjcf(device: Device, base: Base) -> str:
     limit = bodies.largest_torque(device.motor)
     limits = "" if limit is None else f' ctrllimited="true" ctrlrange="{numbers((-limit, limit))}"'
     # Attaching prepends the prefix to the names.
-    imu, attitude, rate = (
-        name.removeprefix(bodies.PREFIX) for name in (bodies.IMU, *bodies.IMU_SENSORS)
-    )
+    imu, attitude, rate = map(_unprefixed, (bodies.IMU, *bodies.IMU_SENSORS))
     device_bodies = list(bodies.device_bodies(device))
-    motors, sensors = [], []
+    wheels_first = sorted(device_bodies, key=lambda body: not body.joint)
+    motors, sensors = "", ""
     for module in device.modules:
-        joint = bodies.joint_name(module).removeprefix(bodies.PREFIX)
-        speed, torque = (name.removeprefix(bodies.PREFIX) for name in bodies.wheel_sensors(module))
-        motors.append(f'<motor name="{joint}" joint="{joint}"{limits}/>')
-        sensors.append(f'<jointvel name="{speed}" joint="{joint}"/>')
-        sensors.append(f'<jointactuatorfrc name="{torque}" joint="{joint}"/>')
-    sensors.append(f'<framequat name="{attitude}" objtype="site" objname="{imu}"/>')
-    sensors.append(f'<gyro name="{rate}" site="{imu}"/>')
+        joint, speed, torque = map(
+            _unprefixed, (bodies.joint_name(module), *bodies.wheel_sensors(module))
+        )
+        motors += f'    <motor name="{joint}" joint="{joint}"{limits}/>\n'
+        sensors += f'    <jointvel name="{speed}" joint="{joint}"/>\n'
+        sensors += f'    <jointactuatorfrc name="{torque}" joint="{joint}"/>\n'
+    sensors += f'    <framequat name="{attitude}" objtype="site" objname="{imu}"/>\n'
+    sensors += f'    <gyro name="{rate}" site="{imu}"/>\n'
     rotation = np.eye(3) if base.mount is None else base.mount.placement.rotation
     values = {
         **_names(base),
-        # Wheels first.
-        "bodies": ", ".join(
-            body.name for body in sorted(device_bodies, key=lambda body: not body.joint)
-        ),
+        "bodies": ", ".join(body.name for body in wheels_first),
         "joints": ", ".join(bodies.joint_names(device)),
         **dict(zip(("speed", "torque"), bodies.wheel_sensors(device.modules[0]), strict=True)),
         "base_quaternion": numbers(quaternion(rotation)),
         "modules": "".join(_body_mjcf(device, body) for body in device_bodies),
-        "motors": "".join(f"    {motor}\n" for motor in motors),
+        "motors": motors,
         "imu": imu,
-        "sensors": "".join(f"    {sensor}\n" for sensor in sensors),
+        "sensors": sensors,
     }
     return fill("ocs.xml", values)
+
+
+def _unprefixed(name: str) -> str:
+    return name.removeprefix(bodies.PREFIX)
 
 
 def _body_mjcf(device: Device, body: bodies.DeviceBody) -> str:
     values = {
         **inertial_values(body.mass_properties),
-        "body": body.name.removeprefix(bodies.PREFIX),
+        "body": _unprefixed(body.name),
         "position": numbers(body.position),
         "quaternion": numbers(quaternion(body.place.rotation)),
     }
     if body.joint:
         wheel = device.flywheel
-        values["joint"] = body.joint.removeprefix(bodies.PREFIX)
+        values["joint"] = _unprefixed(body.joint)
         values["armature"] = numbers(device.motor.armature)
         values["size"] = numbers((wheel.outer_radius, wheel.height / 2.0))
         values["contact_bit"] = str(bodies.WHEEL_CONTACT_BIT)
@@ -264,14 +254,11 @@ def _body_sdf(device: Device, body: bodies.DeviceBody, place: dict[str, str]) ->
     if body.joint:
         values["radius"] = numbers(device.flywheel.outer_radius)
         values["length"] = numbers(device.flywheel.height)
-        motor, torque, speed = (
-            device.motor,
-            bodies.largest_torque(device.motor),
-            device.motor.top_speed,
-        )
-        effort = "" if torque is None else f"<effort>{numbers(torque)}</effort>"
-        velocity = f"<velocity>{numbers(speed)}</velocity>" if np.isfinite(speed) else ""
-        limit = f"<limit>{effort}{velocity}</limit>" if effort or velocity else ""
+        motor, torque = device.motor, bodies.largest_torque(device.motor)
+        limit = "" if torque is None else f"<effort>{numbers(torque)}</effort>"
+        if np.isfinite(motor.top_speed):
+            limit += f"<velocity>{numbers(motor.top_speed)}</velocity>"
+        limit = f"<limit>{limit}</limit>" if limit else ""
         if motor.armature != 0.0:
             left = f"<!-- armature {numbers(motor.armature)} kg m^2 is left out -->"
             limit = f"{limit}\n        {left}"

@@ -62,7 +62,7 @@ from ocs_design.export.visuals import ALUMINIUM, PRINT, piece_color
 from ocs_design.parts.carrier_plate import plate_bodies, plate_part
 from ocs_design.parts.outline import Arc
 from ocs_design.parts.shapes import Disc
-from ocs_design.parts.solids import Part, Prism, Relief, Revolution, Solid
+from ocs_design.parts.solids import ORIGIN, Part, Prism, Relief, Revolution, Solid
 
 DECIMALS = 10
 """Decimals of coordinates [mm], without which 30.4 mm would be written with sixteen digits."""
@@ -106,18 +106,14 @@ def device_bytes(device: Device) -> bytes:
     for module in device.modules:
         place = wheel_placement(module) @ carrier_placement(module)
         assembly.put(group, device_group, place, module.name)
-    if device.plate is not None:
-        plate = device.plate
-        on_trunk = Placement(np.eye(3), np.array(plate.position))
+    if (plate := device.plate) is not None:
         # The first body has all plates; here each is a separate piece.
         _, *others = plate_bodies(plate)
-        bodies = [
-            (plate_part(single), Placement(np.eye(3), np.array(single.position)))
-            for single in plate.single_plates
-        ]
-        bodies += [(part, on_trunk @ at) for part, at in others]
-        for part, place in bodies:
+        bodies = [(plate_part(single), single.position, ORIGIN) for single in plate.single_plates]
+        bodies += [(part, plate.position, at) for part, at in others]
+        for part, position, at in bodies:
             label = assembly.add_part(part.name, part, ALUMINIUM)
+            place = Placement(np.eye(3), np.array(position)) @ at
             assembly.put(label, device_group, place, part.name)
     for kind in pedestal_kinds(device):
         label = assembly.add_part(kind.name, kind.part, PRINT)

@@ -39,14 +39,13 @@ def wheel_meshes(flywheel: Flywheel) -> Mapping[str, Mesh]:
 def device_meshes(device: Device) -> Mapping[Path, bytes]:
     """STL files of wheel and fixed parts in metres, by their paths beside the robot file."""
     wheel = merged(list(wheel_meshes(device.flywheel).values()))
-    still = {
-        path: stl_bytes(mesh, path.stem, units_per_metre=METRES)
-        for path, mesh in still_meshes(device).items()
-    }
-    return {Path(WHEEL_MESH): stl_bytes(wheel, "flywheel", units_per_metre=METRES), **still}
+    files = {Path(WHEEL_MESH): stl_bytes(wheel, "flywheel", METRES)}
+    for path, mesh in still_meshes(device).items():
+        files[path] = stl_bytes(mesh, path.stem, METRES)
+    return files
 
 
-def stl_bytes(mesh: Mesh, name: str, *, units_per_metre: float = MILLIMETRES) -> bytes:
+def stl_bytes(mesh: Mesh, name: str, units_per_metre: float = MILLIMETRES) -> bytes:
     """STL of a closed mesh, reproducible; its name in the header is truncated to 69 bytes."""
     corners = units_per_metre * mesh.corners
     edges = corners[:, 1:] - corners[:, :1]

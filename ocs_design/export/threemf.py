@@ -36,20 +36,14 @@ def threemf_bytes(meshes: Mapping[str, Mesh]) -> bytes:
     """3MF with each mesh as a named object, in a row on the bed, reproducible byte for byte."""
     objects, items, left = [], [], 0.0
     for number, (name, mesh) in enumerate(meshes.items(), start=1):
-        vertices = "\n".join(
-            f'<vertex x="{x:.6f}" y="{y:.6f}" z="{z:.6f}"/>'
-            for x, y, z in MILLIMETRES * mesh.vertices
-        )
-        triangles = "\n".join(
-            f'<triangle v1="{first}" v2="{second}" v3="{third}"/>'
-            for first, second, third in mesh.triangles
-        )
-        objects.append(
-            f'<object id="{number}" type="model" name={quoteattr(name)}><mesh>\n'
-            f"<vertices>\n{vertices}\n</vertices>\n"
-            f"<triangles>\n{triangles}\n</triangles>\n"
-            "</mesh></object>"
-        )
+        points, faces = MILLIMETRES * mesh.vertices, mesh.triangles
+        objects += [
+            f'<object id="{number}" type="model" name={quoteattr(name)}><mesh>\n<vertices>',
+            *(f'<vertex x="{x:.6f}" y="{y:.6f}" z="{z:.6f}"/>' for x, y, z in points),
+            "</vertices>\n<triangles>",
+            *(f'<triangle v1="{a}" v2="{b}" v3="{c}"/>' for a, b, c in faces),
+            "</triangles>\n</mesh></object>",
+        ]
         # Side by side along x, none below the bed.
         low, high = mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)
         x, y, z = MILLIMETRES * (np.array([left, 0.0, 0.0]) - low)
@@ -58,17 +52,16 @@ def threemf_bytes(meshes: Mapping[str, Mesh]) -> bytes:
         )
         left += float(high[0] - low[0]) + GAP
     model = fill("3mf/model.xml", {"objects": "\n".join(objects), "items": "\n".join(items)})
+    texts = {
+        "[Content_Types].xml": template_text("3mf/content_types.xml"),
+        "_rels/.rels": template_text("3mf/relationships.xml"),
+        "3D/3dmodel.model": model,
+    }
     buffer = BytesIO()
     with ZipFile(buffer, "w") as archive:
-        _add(archive, "[Content_Types].xml", template_text("3mf/content_types.xml"))
-        _add(archive, "_rels/.rels", template_text("3mf/relationships.xml"))
-        _add(archive, "3D/3dmodel.model", model)
+        for name, text in texts.items():
+            # Without traces of time and machine.
+            entry = ZipInfo(name, date_time=(1980, 1, 1, 0, 0, 0))
+            entry.create_system = 3
+            archive.writestr(entry, text, ZIP_DEFLATED)
     return buffer.getvalue()
-
-
-def _add(archive: ZipFile, name: str, text: str) -> None:
-    # Without traces of time and machine.
-    entry = ZipInfo(name, date_time=(1980, 1, 1, 0, 0, 0))
-    entry.create_system = 3
-    entry.compress_type = ZIP_DEFLATED
-    archive.writestr(entry, text)

@@ -57,21 +57,18 @@ def robot_urdf(robot: Robot, device: Device) -> bytes:
     """
     content = robot.content if robot.format is RobotFormat.URDF else tree_urdf(robot.tree).encode()
     root = parse_xml(content)
-    base = () if robot.mount is None or robot.format is not RobotFormat.URDF else (BASE_FRAME,)
-    bodies = list(device_bodies(device))
+    # A URDF written from the tree already has the base frame.
+    mount = robot.mount if robot.format is RobotFormat.URDF else None
+    base, bodies = () if mount is None else (BASE_FRAME,), list(device_bodies(device))
     links, joints = [body.name for body in bodies], [body.joint or body.name for body in bodies]
     for kind, names in (("link", links), ("joint", joints)):
-        require_free(
-            kind, (element.get("name", "") for element in root.iter(kind)), (*names, *base)
-        )
-    heading = (
-        f"  <!-- Orientation control system on {in_comment(robot.trunk)}, by ocs-design. -->\n"
-    )
+        taken = (element.get("name", "") for element in root.iter(kind))
+        require_free(kind, taken, (*names, *base))
+    trunk = in_comment(robot.trunk)
+    heading = f"  <!-- Orientation control system on {trunk}, by ocs-design. -->\n"
+    frame = "" if mount is None else mount_urdf(mount)
     elements = device_urdf(device, robot.trunk, mesh=WHEEL_MESH)
-    # A URDF written from the tree already has the base frame.
-    if robot.mount is not None and robot.format is RobotFormat.URDF:
-        elements = mount_urdf(robot.mount) + elements
-    return insert_before_end(content, heading + elements)
+    return insert_before_end(content, heading + frame + elements)
 
 
 def urdf_notes(robot: Robot) -> Notes:
@@ -225,16 +222,13 @@ def limit_urdf(device: Device) -> str:
     """Limits of the motor; URDF allows no speed limit without a torque limit, and no armature."""
     motor, torque = device.motor, largest_torque(device.motor)
     velocity = numbers(min(motor.top_speed, UNLIMITED))
-    limit = (
-        "<!-- the motor's torque is not limited -->"
-        if torque is None
-        else f'<limit effort="{numbers(torque)}" velocity="{velocity}"/>'
-    )
-    if motor.armature == 0.0:
-        return limit
-    return (
-        f"{limit}\n    <!-- armature {numbers(motor.armature)} kg m^2, which URDF cannot state -->"
-    )
+    limit = "<!-- the motor's torque is not limited -->"
+    if torque is not None:
+        limit = f'<limit effort="{numbers(torque)}" velocity="{velocity}"/>'
+    if motor.armature != 0.0:
+        unstated = f"armature {numbers(motor.armature)} kg m^2, which URDF cannot state"
+        limit += f"\n    <!-- {unstated} -->"
+    return limit
 
 
 def ros2_control_urdf(
@@ -292,13 +286,11 @@ def tree_urdf(tree: Tree) -> str:
     """
     root = ET.Element("robot", name=tree.name)
     # A body is named after its own link unless the link's frame differs from the body's.
-    names = [
-        body.name
-        if np.array_equal(frame.rotation, np.eye(3)) and not frame.position.any()
-        else unused_name(body.name, "_at_joint", tree.body_of_link)
-        for body in tree.bodies
-        for frame in (body.links[body.name],)
-    ]
+    names = []
+    for body in tree.bodies:
+        own = body.links[body.name]
+        same = np.array_equal(own.rotation, np.eye(3)) and not own.position.any()
+        names.append(body.name if same else unused_name(body.name, "_at_joint", tree.body_of_link))
     for name, body in zip(names, tree.bodies, strict=True):
         link = ET.SubElement(root, "link", name=name)
         mass = body.mass_properties

@@ -47,8 +47,6 @@ _DRIVE = {"motor": MOTOR, "gear": GEAR}
 _COLORS = {**_DRIVE, "housing": SHELL, "cage": SHELL}
 _COLORS |= {"foot": PRINT, "pedestal": PRINT, "plate": ALUMINIUM}
 
-_PRINTED = ("drum", "lid", "foot", "cage")
-
 _SECTIONS = 64
 """Chords per full circle: a quarter of those of printed parts."""
 
@@ -84,12 +82,13 @@ def still_meshes(device: Device) -> Mapping[Path, Mesh]:
     meshes: dict[str, Mesh] = {}
     if not device.wheels_alone:
         meshes |= _carrier_meshes(foot_of(device), motor_mount(device).cage)
-    if device.plate is not None:
-        bodies = plate_bodies(device.plate)
-        meshes["plate"] = merged([part_mesh(part, _SECTIONS).placed(at) for part, at in bodies])
-    if device.pedestals:
-        placed = [(pedestal_part(pedestal), pedestal.placement) for pedestal in device.pedestals]
-        meshes["pedestal"] = merged([part_mesh(part, _SECTIONS).placed(at) for part, at in placed])
+    under = {
+        "plate": () if device.plate is None else plate_bodies(device.plate),
+        "pedestal": ((pedestal_part(one), one.placement) for one in device.pedestals),
+    }
+    for name, bodies in under.items():
+        if placed := [part_mesh(part, _SECTIONS).placed(at) for part, at in bodies]:
+            meshes[name] = merged(placed)
     return {_MESHES[name]: mesh for name, mesh in meshes.items()}
 
 
@@ -200,7 +199,8 @@ def piece_color(device: Device, name: str) -> Color:
     web = device.flywheel.web
     if name == "hub" and web is not None and web.material.startswith("aluminium"):
         return ALUMINIUM
-    return PRINT if name in _PRINTED else _DRIVE.get(name.removesuffix("_2"), STEEL)
+    printed = name in {"drum", "lid", "foot", "cage"}
+    return PRINT if printed else _DRIVE.get(name.removesuffix("_2"), STEEL)
 
 
 def cage_placement(foot: Foot, cage: Cage) -> Placement:

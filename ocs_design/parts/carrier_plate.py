@@ -219,21 +219,17 @@ class CarrierPlate:
     @property
     def single_plates(self) -> tuple["CarrierPlate", ...]:
         """Every plate on its own, with its own screws."""
-        x, y, z = self.position
-        trunk = () if self.mast else self.trunk
-        sleeves = () if self.mast else self.sleeves
-        return tuple(
-            replace(
-                self,
-                position=(x + row, y, z + level),
-                feet=tuple((along - row, across) for along, across in self.own(self.feet, index)),
-                trunk=tuple((along - row, across) for along, across in self.own(trunk, index)),
-                sleeves=self.own(sleeves, index),
-                rows=(0.0,),
-                levels=(),
+        (x, y, z), plates = self.position, []
+        trunk, sleeves = ((), ()) if self.mast else (self.trunk, self.sleeves)
+        for index, (row, level) in enumerate(zip(self.rows, self.heights, strict=True)):
+            feet, held = (
+                tuple((along - row, across) for along, across in self.own(holes, index))
+                for holes in (self.feet, trunk)
             )
-            for index, (row, level) in enumerate(zip(self.rows, self.heights, strict=True))
-        )
+            single = replace(self, position=(x + row, y, z + level), rows=(0.0,), levels=())
+            own = self.own(sleeves, index)
+            plates.append(replace(single, feet=feet, trunk=held, sleeves=own))
+        return tuple(plates)
 
     @property
     def kinds(self) -> tuple[tuple[int, ...], ...]:
@@ -473,10 +469,10 @@ def mast_part(plate: CarrierPlate, mast: Mast) -> Part[float]:
     within = Rectangle(face - far, face - mast.wall, -bore, bore)
     levels = [Placement(BACKWARDS, np.array([mast.back, 0.0, z - half])) for z in plate.heights]
     arm = mast.back + plate.neck
-    solids = [Prism(upright, mast.low, mast.high)]
-    solids += [Prism(tube, 0.0, arm, level) for level in levels]
-    holes = [Prism(within, mast.low, mast.high)]
-    holes += [Prism(inside, 0.0, arm, level) for level in levels]
+    solids, holes = (
+        [Prism(standing, mast.low, mast.high), *(Prism(lying, 0.0, arm, at) for at in levels)]
+        for standing, lying in ((upright, tube), (within, inside))
+    )
     flat = 0.0 if mast.formed else mast.spacer
     walls = (-flat, mast.wall), (far, mast.side)
     if flat > 0.0:

@@ -1,6 +1,5 @@
 """The outline of a carrier plate: discs under the feet, and necks from its middle to them."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from math import acos, asin, pi, sin, sqrt, tan
 
@@ -92,7 +91,7 @@ class DogBone:
 
         int x dy, int x^3 / 3 dy and int x y^2 dy along the hub, x = w y / h, along the neck, x = w,
         along the fillet, x = w + f - q(s) with s = y - y_0, and along the disc, x = q(s) with s =
-        y - c; see `_Circle`.
+        y - c; see `_on_circle`.
         """
         w, f, r, c, low = self.neck, self.fillet, self.radius, self.across, self.straight
         _, top = self.meets
@@ -100,13 +99,14 @@ class DogBone:
         area, cubes, second = w * (low - h / 2.0), w**3 * (low - 0.75 * h), w * low**3 / 3.0
         second -= w * h**3 / 12.0
         # The fillet: distance of its tangent, minus a circle.
-        a, end, gone = w + f, top - low, _Circle(f, 0.0, top - low)
-        area += a * end - gone.one
-        cubes += a**3 * end - 3.0 * a**2 * gone.one - gone.cube
+        a, end = w + f, top - low
+        one, cube, about = _on_circle(f, 0.0, end, low)
+        area += a * end - one
+        cubes += a**3 * end - 3.0 * a**2 * one - cube
         cubes += 3.0 * a * (f**2 * end - end**3 / 3.0)
-        second += a * ((low + end) ** 3 - low**3) / 3.0 - gone.about(low)
-        disc = _Circle(r, top - c, r)
-        area, cubes, second = area + disc.one, cubes + disc.cube, second + disc.about(c)
+        second += a * ((low + end) ** 3 - low**3) / 3.0 - about
+        one, cube, about = _on_circle(r, top - c, r, c)
+        area, cubes, second = area + one, cubes + cube, second + about
         around = flat(2.0 * area, 2.0 / 3.0 * cubes, 2.0 * second).around(self.arms)
         return around.moved(self.x, 0.0, 0.0)
 
@@ -147,40 +147,14 @@ class DogBone:
         return np.asarray(np.where(off < top, rounded, disc))
 
 
-@dataclass(frozen=True)
-class _Circle:
-    """Integrals along a piece of a circle, q(s) = sqrt(r^2 - s^2), in closed form.
+def _on_circle(r: float, low: float, high: float, offset: float) -> tuple[float, float, float]:
+    """Integrals over s of q, q^3 and (s + offset)^2 q with q(s) = sqrt(r^2 - s^2) [m^2, m^4].
 
-    Attributes:
-        radius: r [m]. low, high: limits of s [m].
+    That of q is (s q + r^2 asin(s/r)) / 2; of q^3, s q^3 / 4 plus 3/4 r^2 times that of q; of s q,
+    -q^3 / 3; of s^2 q, -s q^3 / 4 plus r^2 / 4 times that of q.
     """
-
-    radius: float
-    low: float
-    high: float
-
-    @property
-    def one(self) -> float:
-        """Integral of q: (s q + r^2 asin(s/r)) / 2 [m^2]."""
-        return self._between(lambda s, q: (s * q + self.radius**2 * asin(s / self.radius)) / 2.0)
-
-    @property
-    def cube(self) -> float:
-        """Integral of q^3: s q^3 / 4 plus 3/4 r^2 times that of q [m^4]."""
-        own = self._between(lambda s, q: s * q**3 / 4.0)
-        return own + 0.75 * self.radius**2 * self.one
-
-    def about(self, offset: float) -> float:
-        """Integral of (s + offset)^2 q [m^4].
-
-        The integral of s q is -q^3 / 3; that of s^2 q is -s q^3 / 4 plus r^2 / 4 times that of q.
-        """
-        first = self._between(lambda _, q: -(q**3) / 3.0)
-        own = self._between(lambda s, q: -s * q**3 / 4.0) + self.radius**2 / 4.0 * self.one
-        return own + 2.0 * offset * first + offset**2 * self.one
-
-    def _between(self, primitive: Callable[[float, float], float]) -> float:
-        low, high = (
-            primitive(s, sqrt(max(0.0, self.radius**2 - s**2))) for s in (self.low, self.high)
-        )
-        return high - low
+    p, q = (sqrt(max(0.0, r**2 - s**2)) for s in (low, high))
+    one = (high * q + r**2 * asin(high / r)) / 2.0 - (low * p + r**2 * asin(low / r)) / 2.0
+    first, fourth = -(q**3) / 3.0 + p**3 / 3.0, high * q**3 / 4.0 - low * p**3 / 4.0
+    square = -fourth + r**2 / 4.0 * one
+    return one, fourth + 0.75 * r**2 * one, square + 2.0 * offset * first + offset**2 * one

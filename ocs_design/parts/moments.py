@@ -9,7 +9,7 @@ Everything uses operators only, and so works for numbers, arrays and CasADi symb
 
 from dataclasses import dataclass, replace
 from math import cos, sin
-from typing import TYPE_CHECKING, Any, Generic
+from typing import TYPE_CHECKING, Generic
 
 import numpy as np
 
@@ -87,23 +87,13 @@ class MassMoments(Table, Generic[Real]):
             (self.xz, self.yz, self.zz),
         )
 
-        turned: list[Any] = [sum(entry * first[k] for k, entry in row) for row in rows]
-        products: list[list[Any]] = [
-            [sum(a * b * second[k][m] for k, a in one for m, b in other) for other in rows]
-            for one in rows
-        ]
-        return MassMoments(
-            self.mass,
-            turned[1],
-            turned[2],
-            products[0][0],
-            products[1][1],
-            products[2][2],
-            products[1][2],
-            turned[0],
-            products[0][1],
-            products[0][2],
+        x, y, z = (sum(entry * first[k] for k, entry in row) for row in rows)
+
+        xx, yy, zz, yz, xy, xz = (
+            sum(a * b * second[k][m] for k, a in rows[i] for m, b in rows[j])
+            for i, j in ((0, 0), (1, 1), (2, 2), (1, 2), (0, 1), (0, 2))
         )
+        return MassMoments(self.mass, y, z, xx, yy, zz, yz, x, xy, xz)
 
     def around(self, count: int, first: float = 0.0) -> "MassMoments[Real]":
         """Moments of `count` equal flat bodies, evenly spaced around the z axis.

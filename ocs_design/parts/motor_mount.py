@@ -310,17 +310,9 @@ def _fastening(
         deepest: use the full depth: cut screws that are too long instead of taking a shorter size.
     """
     held, least, most = screw(circle.thread), circle.depth, circle.deepest
-    reach = min(depth * held.diameter, most)
-    found = Fastening(
-        held,
-        circle.bolts,
-        thickness,
-        joint,
-        reach / held.diameter,
-        circle.screws,
-        least or 0.0,
-        most,
-    )
+    reach = min(depth * held.diameter, most) / held.diameter
+    known = reach, circle.screws, least or 0.0, most
+    found = Fastening(held, circle.bolts, thickness, joint, *known)
     if least is None and not deepest and found.length > thickness + most:
         thread = longest_within(thickness + most) - thickness
         if thread >= held.least_thread:
@@ -388,24 +380,10 @@ def hub_of(
         bore = min(bore, rotor.inside - LIGAMENT)
     on_shaft = mounting.shaft_diameter is not None
     wide = 2.0 * bore if on_shaft else 5.5e-3 + 0.15 * (motor_diameter or 0.03)
-    hub = Hub(
-        max(wide, bore + HUB_WALL),
-        hub_height(mounting),
-        bore,
-        chamfer=chamfer,
-        web_thickness=web_thickness,
-        lightening=lightening,
-    )
-    if rotor is None:
-        return hub
-    return replace(
-        hub,
-        radius=rotor.reach + HUB_WALL,
-        bolts=rotor.bolts,
-        bolt_circle_radius=rotor.radius,
-        bolt_hole_radius=rotor.hole_radius,
-        bolt_head=screw(rotor.thread).head_height,
-    )
+    radius = max(wide, bore + HUB_WALL) if rotor is None else rotor.reach + HUB_WALL
+    bolts = (0, 0.0, 0.0) if rotor is None else (rotor.bolts, rotor.radius, rotor.hole_radius)
+    head = 0.0 if rotor is None else screw(rotor.thread).head_height
+    return Hub(radius, hub_height(mounting), bore, *bolts, chamfer, head, web_thickness, lightening)
 
 
 def rim_height_min(hub: Hub) -> float:

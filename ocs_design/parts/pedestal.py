@@ -191,21 +191,13 @@ class Pedestal:
         return combine(self._bodies()).moved(place.rotation, place.position)
 
     def _bodies(self) -> tuple[MassProperties, ...]:
-        held, none = self.base_screws, np.zeros((3, 3))
-        head = self.base - held.centre
-        seated, foot = self.seat_screws, self.foot_base
-        # The same for any plate of that base.
-        own = replace(seated, depth=1.0)
-        seat = self.seat.position + (foot - seated.centre) * self._directions[1]
-        return (
-            pedestal_part(self).mass_properties(),
-            *(
-                MassProperties(held.mass / held.count, np.array([x, y, head]), none)
-                for x, y in self.holes
-            ),
-            # A foot's own screws are counted with its module.
-            MassProperties(seated.mass - own.mass, seat, none),
-        )
+        held, seated, none = self.base_screws, self.seat_screws, np.zeros((3, 3))
+        one, head = held.mass / held.count, self.base - held.centre
+        screws = (MassProperties(one, np.array([x, y, head]), none) for x, y in self.holes)
+        seat = self.seat.position + (self.foot_base - seated.centre) * self._directions[1]
+        # A foot's own screws, the same for any plate of that base, are counted with its module.
+        longer = MassProperties(seated.mass - replace(seated, depth=1.0).mass, seat, none)
+        return (pedestal_part(self).mass_properties(), *screws, longer)
 
 
 def pedestal_part(pedestal: Pedestal) -> Part[float]:
@@ -217,12 +209,8 @@ def pedestal_part(pedestal: Pedestal) -> Part[float]:
     through = TRUNK_SCREW.clearance_hole / 2.0
     base = [Prism(Disc(through, place), 0.0, pedestal.base) for place in pedestal.holes]
     # Left on the near side, right on the far side: opposite each other, like the foot's slots.
-    seat = [
-        Prism(
-            Disc(TRUNK_SCREW.tapping_drill / 2.0, (x, x)), -pedestal.thickness, 0.0, pedestal.seat
-        )
-        for x in (-off, off)
-    ]
+    threads = (Disc(TRUNK_SCREW.tapping_drill / 2.0, (x, x)) for x in (-off, off))
+    seat = [Prism(thread, -pedestal.thickness, 0.0, pedestal.seat) for thread in threads]
     return Part("pedestal", PETG.density, (frame,), (window, *base, *seat))
 
 

@@ -202,18 +202,10 @@ class Relief:
         h = self.height(x, y)
         # The four points of a triangle are inside it, so rounding cannot move one to another.
         first, second, third = area * h, area * h**2 / 2.0, area * h**3 / 3.0
-        own = MassMoments(
-            mass=float(first.sum()),
-            x=float((first * x).sum()),
-            y=float((first * y).sum()),
-            z=float(second.sum()),
-            xx=float((first * x**2).sum()),
-            yy=float((first * y**2).sum()),
-            zz=float(third.sum()),
-            xy=float((first * x * y).sum()),
-            xz=float((second * x).sum()),
-            yz=float((second * y).sum()),
-        )
+        # In the order of the fields.
+        upright = first, first * y, second, first * x**2, first * y**2, third, second * y
+        integrands = *upright, first * x, first * x * y, second * x
+        own = MassMoments(*(float(integrand.sum()) for integrand in integrands))
         turned = own.turned(self.placement.rotation)
         return turned.moved(*self.placement.position.tolist())
 
@@ -223,22 +215,17 @@ class Relief:
         wide, tall = float(xs[1] - xs[0]), float(ys[1] - ys[0])
         share = np.array([[1.0, 1.0, 1.0], [1.8, 0.6, 0.6], [0.6, 1.8, 0.6], [0.6, 0.6, 1.8]]) / 3.0
         weight = np.array([-27.0, 25.0, 25.0, 25.0]) / 48.0 * wide * tall / 2.0
-        x, y, area = [], [], []
+        found = []
         for corners in (((0, 0), (1, 0), (1, 1)), ((0, 0), (0, 1), (1, 1))):
             u, v = (share @ np.array(corners)).T
-            one, other = np.broadcast_arrays(
-                xs[:-1, None, None] + wide * u, ys[None, :-1, None] + tall * v
-            )
-            x.append(one.ravel())
-            y.append(other.ravel())
-            area.append(np.broadcast_to(weight, one.shape).ravel())
+            grid = xs[:-1, None, None] + wide * u, ys[None, :-1, None] + tall * v, weight
+            found.append(np.stack(np.broadcast_arrays(*grid)).reshape(3, -1))
         around = even_points(0.0, 1.0, 16, 64)
         for middle_x, middle_y, radius in self.holes:
-            places = radius * around + [middle_x, middle_y]
-            x.append(places[:, 0])
-            y.append(places[:, 1])
-            area.append(np.full(len(places), -pi * radius**2 / len(places)))
-        return np.concatenate(x), np.concatenate(y), np.concatenate(area)
+            x, y = (radius * around + [middle_x, middle_y]).T
+            found.append(np.stack([x, y, np.full(len(x), -pi * radius**2 / len(x))]))
+        x, y, area = np.concatenate(found, axis=1)
+        return x, y, area
 
 
 Solid: TypeAlias = Revolution | Prism | Relief

@@ -110,13 +110,11 @@ class TurningRings:
             r, row, column = inside.outer, 2 * at + 1, 2 * at
             (moved, pulled), (moved_out, pulled_out) = inside._rows(r), around._rows(r)
             own, other = inside._rotation_terms(speed, r), around._rotation_terms(speed, r)
+            t, t_out = inside.thickness, around.thickness
             matrix[row, column : column + 4] = [*-moved, *moved_out]
             right[row] = gaps[at] + float(own[0] - other[0])
-            matrix[row + 1, column : column + 4] = [
-                *(-inside.thickness * pulled),
-                *(around.thickness * pulled_out),
-            ]
-            right[row + 1] = float(inside.thickness * own[1] - around.thickness * other[1])
+            matrix[row + 1, column : column + 4] = [*(-t * pulled), *(t_out * pulled_out)]
+            right[row + 1] = float(t * own[1] - t_out * other[1])
         # Displacements are nine orders of magnitude below stresses.
         scale = np.abs(matrix).max(axis=1)
         columns = np.abs(matrix / scale[:, None]).max(axis=0)
@@ -184,14 +182,9 @@ def holed_peaks(
     middles = (edges[:-1] + edges[1:]) / 2.0
     cosines = (middles**2 + circle**2 - hole**2) / (2.0 * middles * circle)
     shares = 1.0 - count * np.arccos(cosines) / pi
+    thick, rho, modulus, nu = web.thickness, web.density, web.elastic_modulus, web.poisson_ratio
     bands = [
-        replace(
-            web,
-            inner=inner,
-            outer=outer,
-            density=share * web.density,
-            elastic_modulus=share * web.elastic_modulus,
-        )
+        Ring(inner, outer, thick, share * rho, share * modulus, nu)
         for (inner, outer), share in zip(pairwise(edges.tolist()), shares.tolist(), strict=True)
     ]
     inside = replace(web, outer=circle - hole)

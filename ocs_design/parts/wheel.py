@@ -186,12 +186,9 @@ def wheel_parts(wheel: Wheel) -> tuple[Part[float], ...]:
         holes = (rim.balancing.prism(bottom, half), rim.balancing.prism(-half, -bottom))
     if web is None:
         return (Part("rim", rim.density, (_mirrored(rim.corners),), holes),)
-    disc = web.corners(rim.inner_radius)
-    drilled = tuple(
-        ring.prism(-end, end)
-        for ring in web.rings
-        for end in [web.height(ring.circle_radius) / 2.0]
-    )
+    disc, ends = web.corners(rim.inner_radius), [web.height(r.circle_radius) for r in web.rings]
+    both = zip(web.rings, ends, strict=True)
+    drilled = tuple(ring.prism(-end / 2.0, end / 2.0) for ring, end in both)
     if not wheel.shrunk_on:
         return (Part("wheel", rim.density, (_mirrored([*rim.corners, *disc]),), holes + drilled),)
     return (

@@ -134,9 +134,7 @@ def test_the_section_is_that_of_the_stl_file(name, tmp_path):
     piece = PIECES[name]
     holes = [1e3 * cut.outline.points for cut in piece.cut]
     angle = max(np.linspace(0.0, np.pi, 721)[:-1], key=lambda angle: _clearance(holes, angle))
-    (tmp_path / "piece.stl").write_bytes(
-        stl_bytes(part_mesh(piece), "piece", units_per_metre=MILLIMETRES)
-    )
+    (tmp_path / "piece.stl").write_bytes(stl_bytes(part_mesh(piece), "piece", MILLIMETRES))
     mesh = trimesh.load_mesh(tmp_path / "piece.stl")
     lines = trimesh.intersections.mesh_plane(mesh, _normal(angle), np.zeros(3))
     across = lines @ np.array([np.cos(angle), np.sin(angle), 0.0])

@@ -288,7 +288,7 @@ def test_the_stl_of_a_mast_is_one_closed_body(spacer):
         mast = replace(base.mast, face=face, below=max(side, 0.02 - low), high=distance)
         plate = replace(base, thread="M4", trunk=trunk, levels=(0.0, distance), mast=mast)
         mesh = part_mesh(mast_part(plate, mast))
-        file = io.BytesIO(stl_bytes(mesh, "mast", units_per_metre=MILLIMETRES))
+        file = io.BytesIO(stl_bytes(mesh, "mast", MILLIMETRES))
         solid = trimesh.load_mesh(file, file_type="stl")
         assert solid.is_watertight and solid.is_winding_consistent
         assert solid.body_count == 1

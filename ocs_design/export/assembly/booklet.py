@@ -22,27 +22,15 @@ from ocs_design.export.assembly.views import BALLOON, exploded_view, section_vie
 from ocs_design.export.assembly_notes import drive_notes, trunk_threads
 from ocs_design.export.bill_of_materials import BillRow, bill_rows
 from ocs_design.export.device_parts import BLOCK
-from ocs_design.export.drawing.sheet import (
-    FRAME_BOX,
-    THIN,
-    Anchor,
-    Box,
-    Circle,
-    Item,
-    Lettering,
-    Line,
-    Polyline,
-    Scale,
-    truncated,
-    wrapped,
-)
+from ocs_design.export.drawing import sheet
+from ocs_design.export.drawing.sheet import Anchor, Box, Circle, Item, Lettering, Line, Polyline
 from ocs_design.export.drawing.title_block import TOOL, device_hash, frame
 from ocs_design.export.drawing.writers import pdf_of_pages, svg_text
 from ocs_design.export.electrics import wiring
 from ocs_design.export.formats import Notes, Subject
 from ocs_design.parts.printed import WASHER
 
-LEFT, TOP, RIGHT, BOTTOM = FRAME_BOX
+LEFT, TOP, RIGHT, BOTTOM = sheet.FRAME_BOX
 _INSET = 4.0
 """Distance between the frame and its content [mm]."""
 
@@ -149,25 +137,22 @@ def assembly_pages(assembly: Assembly) -> list[list[Item]]:
 
     def halves(count: int) -> tuple[list[Item], float]:
         """The first `count` rows on the left, the others on the right, and their end [mm]."""
-        items, ends = [], []
-        for column, part in enumerate((cells[:count], cells[count:])):
-            left = LEFT + _INSET + column * (width + _GUTTER)
-            table, end = _table(header, part, widths, (left, top, left + width))
-            items += table
-            ends.append(end)
-        return items, max(ends)
+        left, right = LEFT + _INSET, LEFT + _INSET + width + _GUTTER
+        one, end = _table(header, cells[:count], widths, (left, top, left + width))
+        other, other_end = _table(header, cells[count:], widths, (right, top, right + width))
+        return one + other, max(end, other_end)
 
     first += min(map(halves, range(len(cells), 0, -1)), key=lambda both: both[1])[0]
     bodies = [first, *_text_pages(assembly, chapters(assembly))]
     identity = f"design {device_hash(assembly.device)} · {TOOL}"
     verdict = ": NOT buildable as it stands" if assembly.refused else ""
-    title, y = truncated(f"Assembly, {assembly.name}{verdict}", 150.0, _TITLE), TOP + 7.0
+    title, y = sheet.truncated(f"Assembly, {assembly.name}{verdict}", 150.0, _TITLE), TOP + 7.0
     pages: list[list[Item]] = []
     for number, body in enumerate(bodies, start=1):
-        sheet = f"{identity} · sheet {number} / {len(bodies)}"
+        place = f"{identity} · sheet {number} / {len(bodies)}"
         heading: list[Item] = [
             Lettering((LEFT + _INSET, y), title, _TITLE),
-            Lettering((RIGHT - _INSET, y), sheet, _TEXT, Anchor.END),
+            Lettering((RIGHT - _INSET, y), place, _TEXT, Anchor.END),
             Line((LEFT, TOP + 10.0), (RIGHT, TOP + 10.0)),
         ]
         pages.append([*frame(), *heading, *body])
@@ -175,7 +160,7 @@ def assembly_pages(assembly: Assembly) -> list[list[Item]]:
 
 
 @lru_cache(maxsize=1)
-def _exploded(assembly: Assembly) -> tuple[list[Item], Scale]:
+def _exploded(assembly: Assembly) -> tuple[list[Item], sheet.Scale]:
     """The exploded view, drawn once for paper and for the report."""
     left, top, right, bottom = EXPLODED_BOX
     if assembly.refused:
@@ -186,7 +171,7 @@ def _exploded(assembly: Assembly) -> tuple[list[Item], Scale]:
 
 def _refused_lines(assembly: Assembly) -> list[str]:
     """Lines across the first sheet on why the device cannot be built; empty if it can."""
-    return wrapped(assembly.refused, RIGHT - LEFT - 2.0 * _INSET, _HEADING)
+    return sheet.wrapped(assembly.refused, RIGHT - LEFT - 2.0 * _INSET, _HEADING)
 
 
 def pictures(assembly: Assembly) -> Iterator[str]:
@@ -197,17 +182,13 @@ def pictures(assembly: Assembly) -> Iterator[str]:
         yield svg_text(items, what, _around(items))
 
 
-def _sections(assembly: Assembly) -> Iterator[tuple[list[Item], Scale, str, Box]]:
+def _sections(assembly: Assembly) -> Iterator[tuple[list[Item], sheet.Scale, str, Box]]:
     """Sections of a module and of a ring in its fixture: lines, scale, caption and box."""
     numbers, box = assembly.numbers, _SECTION_BOX
     if assembly.bonding:
-        box = (*box[:3], _BONDING_BOX[1] - 6.0)
+        box, room = (*box[:3], _BONDING_BOX[1] - 6.0), _above_caption(_BONDING_BOX)
         caption = "Ring and bell of the motor in their fixture, cut along their axis"
-        yield (
-            *section_view(assembly.bonding, numbers, _above_caption(_BONDING_BOX), standing=True),
-            caption,
-            _BONDING_BOX,
-        )
+        yield *section_view(assembly.bonding, numbers, room, standing=True), caption, _BONDING_BOX
     view = section_view(assembly.pieces, numbers, _above_caption(box))
     yield *view, "One module cut along its axis", box
 
@@ -279,7 +260,7 @@ def _text_pages(assembly: Assembly, texts: Sequence[Chapter]) -> list[list[Item]
 def _lines(number: str, text: str, column: tuple[int, Box]) -> list[str]:
     """Lines of a paragraph in a column; a heading, which has no number, is one line."""
     left, _, right, _ = column[1]
-    return wrapped(text, right - left - _NUMBER, _TEXT) if number else [text]
+    return sheet.wrapped(text, right - left - _NUMBER, _TEXT) if number else [text]
 
 
 def _halves(top: float) -> list[Box]:
@@ -291,7 +272,7 @@ def _halves(top: float) -> list[Box]:
     ]
 
 
-def _scale(what: str, scale: Scale, box: Box) -> Iterator[Item]:
+def _scale(what: str, scale: sheet.Scale, box: Box) -> Iterator[Item]:
     yield Lettering((box[0] + 2.0, box[3] - 1.0), f"{what}, {scale}", _TEXT)
 
 
@@ -311,19 +292,16 @@ def _table(
     column_widths = [width or remaining for width in widths]
     items: list[Item] = []
     for number, row in enumerate((header, *rows)):
-        lines = [
-            wrapped(cell, width - 1.5, _TEXT)
-            for cell, width in zip(row, column_widths, strict=True)
-        ]
-        x = left
-        for texts, width in zip(lines, column_widths, strict=True):
+        x, most = left, 1
+        for cell, width in zip(row, column_widths, strict=True):
+            texts = sheet.wrapped(cell, width - 1.5, _TEXT)
             for place, text in enumerate(texts):
                 items.append(Lettering((x, y + 3.0 + place * 3.1), text, _TEXT))
-            x += width
-        y += 3.1 * max(1, *map(len, lines)) + 1.5
-        items.append(Line((left, y), (right, y), THIN))
+            x, most = x + width, max(most, len(texts))
+        y += 3.1 * most + 1.5
+        items.append(Line((left, y), (right, y), sheet.THIN))
         if number == 0:
-            items.append(Line((left, y + 0.3), (right, y + 0.3), THIN))
+            items.append(Line((left, y + 0.3), (right, y + 0.3), sheet.THIN))
     return items, y
 
 
@@ -367,22 +345,13 @@ def piece_rows(assembly: Assembly) -> Iterator[PieceRow]:
 def screw_rows(assembly: Assembly) -> Iterator[ScrewRow]:
     """Screws with their torques."""
     for piece in assembly.pieces:
-        fastening = piece.fastening
-        if fastening is None:
-            continue
-        tightened_screws = assembly.screws[fastening]
-        engagement = tightened_screws.engagement
-        diameters = engagement / fastening.screw.diameter
-        depth = f"{1e3 * engagement:.1f} mm ({diameters:.1f} d)"
-        yield ScrewRow(
-            assembly.numbers[fastening],
-            _count(assembly, piece),
-            fastening.designation,
-            f"{fastening.purpose}{tightened_screws.with_washers}",
-            depth,
-            f"{significant(tightened_screws.torque, 2)} N m",
-            tightened_screws.rule,
-        )
+        if (fastening := piece.fastening) is not None:
+            tight, number = assembly.screws[fastening], assembly.numbers[fastening]
+            diameters = tight.engagement / fastening.screw.diameter
+            depth = f"{1e3 * tight.engagement:.1f} mm ({diameters:.1f} d)"
+            what, torque = f"{fastening.purpose}{tight.with_washers}", significant(tight.torque, 2)
+            row = _count(assembly, piece), fastening.designation, what, depth, f"{torque} N m"
+            yield ScrewRow(number, *row, tight.rule)
 
 
 def _count(assembly: Assembly, piece: Piece) -> int:
@@ -405,18 +374,15 @@ def _motor_threads(assembly: Assembly) -> Iterator[str]:
     model = drawn_threads(motor.name, motor.source)
     specified = all(screws.fastening.least > 0.0 for screws in tightened_screws)
     if model is not None and not specified:
-        joints = (screws.fastening.joint for screws in tightened_screws)
-        depths = [model.rotor if joint is BoltedJoint.WHEEL else model.stator for joint in joints]
+        on_wheel = (screws.fastening.joint is BoltedJoint.WHEEL for screws in tightened_screws)
+        depths = [model.rotor if rotor else model.stator for rotor in on_wheel]
         model_text = (
             f" For {model.model}, whose threads the catalogue assumes for this motor, a CAD model "
             f"shows {' and '.join(f'{1e3 * depth:.1f} mm' for depth in depths)}: its modeller's "
             "figures, not the maker's."
         )
-        engagements = (screws.engagement for screws in tightened_screws)
-        fits = all(
-            engagement <= depth - OFF_BOTTOM + 1e-9
-            for engagement, depth in zip(engagements, depths, strict=True)
-        )
+        both = zip(tightened_screws, depths, strict=True)
+        fits = all(screws.engagement <= depth - OFF_BOTTOM + 1e-9 for screws, depth in both)
         # Designs of older versions did not count them.
         model_text += (
             " The screws fit it." if fits else " If it is right, these screws are too long."
@@ -445,16 +411,11 @@ def chapters(assembly: Assembly) -> tuple[Chapter, ...]:
     ]
     before += _motor_threads(assembly)
     before.append(f"Tools: {', '.join(tools(assembly))}.")
-    steps_per_module, steps_on_robot = tuple(module_steps(assembly)), tuple(robot_steps(assembly))
+    each, once = tuple(module_steps(assembly)), tuple(robot_steps(assembly))
     all_chapters = (
         Chapter("Before you start", tuple(before)),
-        Chapter("Steps, for each module", steps_per_module, numbered=True),
-        Chapter(
-            "Steps, once for the robot",
-            steps_on_robot,
-            numbered=True,
-            first=len(steps_per_module) + 1,
-        ),
+        Chapter("Steps, for each module", each, True),
+        Chapter("Steps, once for the robot", once, True, first=len(each) + 1),
         Chapter("Balance", tuple(balance(assembly))),
         Chapter("Spin test, before anything goes on the robot", tuple(spin_test(assembly)), True),
         Chapter("Sweep, on the robot before its first flight", tuple(sweep(assembly)), True),

@@ -81,8 +81,7 @@ def tightened(
         return Tightened(fastening, filled * tightening_torque(screw, strength), rule, engagement)
     limits = [(screw.preload, "class 8.8 at 90 % of yield (VDI 2230, friction 0.12)")]
     if joint.on_print:
-        pressed = PRESSURE_SHARE * PETG.strength * screw.head_area
-        where = "head on PETG"
+        pressed, where = PRESSURE_SHARE * PETG.strength * screw.head_area, "head on PETG"
         if on_slot is not None:
             pressed = on_slot.preload
             where = f"{'washer' if washers else 'head'} beside a slot in PETG"
@@ -124,11 +123,9 @@ class Assembly(Documented):
         for fastening in (piece.fastening for piece in self.pieces):
             if fastening is not None:
                 tapped = plate is not None and fastening.joint is BoltedJoint.FOOT_ON_PLATE
-                by_fastening[fastening] = tightened(
-                    fastening,
-                    on_slot=foot_hold(self.device) if fastening.joint.of_foot else None,
-                    deepest=plate.thickness if plate is not None and tapped else math.inf,
-                )
+                deepest = plate.thickness if plate is not None and tapped else math.inf
+                hold = foot_hold(self.device) if fastening.joint.of_foot else None
+                by_fastening[fastening] = tightened(fastening, on_slot=hold, deepest=deepest)
         return by_fastening
 
     def screws_of(self, *joints: BoltedJoint) -> list[Tightened]:
@@ -160,12 +157,8 @@ class Assembly(Documented):
                 lock += ", a drop on the tips only, because it attacks the print"
             if fastening.joint is BoltedJoint.WHEEL and balance_of(self.device).shifted:
                 lock += " when the wheel runs true (next step)"
-        cut = (
-            ""
-            if fastening.shortened is None
-            else f" shortened to {1e3 * fastening.shortened:.3g} mm"
-        )
-        plate, where = self.device.plate, ""
+        shortened, plate, where = fastening.shortened, self.device.plate, ""
+        cut = "" if shortened is None else f" shortened to {1e3 * shortened:.3g} mm"
         # Places of these screws on the trunk [mm] if their lengths differ.
         if plate is not None and fastening.several_lengths:
             holes = zip(places(trunk_holes(plate)), plate.screw_lengths, strict=True)

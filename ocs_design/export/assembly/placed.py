@@ -92,21 +92,13 @@ def placed_parts(device: Device) -> Mapping[str, tuple[Part[float], Placement]]:
         places["cage"] = cage_placement(foot, cage)
     for part in printed_parts(device):
         parts[part.name] = (part, places.get(part.name, ORIGIN))
-    motor = device.motor
-    masses = {"motor": motor.mass, "gear": motor.gear_mass}
-    drive_parts = [
-        (solid, _drive_bodies(device, solid))
-        for solid in drive_solids(device)
-        if solid.name in masses
-    ]
-    for solid, bodies in drive_parts:
-        same_name = (
-            solid_bodies for other, solid_bodies in drive_parts if other.name == solid.name
-        )
-        volume = sum(body.volume() for solid_bodies in same_name for body in solid_bodies)
-        name = solid.name if solid.name not in parts else f"{solid.name}_2"
-        part = Part(name, masses[solid.name] / volume, bodies)
-        parts[name] = (part, Placement(np.eye(3), np.array([0.0, -solid.up, 0.0])))
+    for kind, mass in (("gear", device.motor.gear_mass), ("motor", device.motor.mass)):
+        solids = [solid for solid in drive_solids(device) if solid.name == kind]
+        bodies = [_drive_bodies(device, solid) for solid in solids]
+        volume = sum(body.volume() for both in bodies for body in both)
+        for name, solid, both in zip((kind, f"{kind}_2"), solids, bodies, strict=False):
+            place = Placement(np.eye(3), np.array([0.0, -solid.up, 0.0]))
+            parts[name] = (Part(name, mass / volume, both), place)
     return parts
 
 
@@ -143,45 +135,21 @@ def module_pieces(device: Device) -> tuple[Piece, ...]:
         return tuple(wheel)
     foot, mount = foot_of(device), motor_mount(device)
     floor = -foot.housing.half_height
-    screws = [
-        (
-            ring,
-            _ring(
-                ring.fastening,
-                ring.circle.radius,
-                -pi / 2.0,
-                ring.along if ring.by_wheel else floor + ring.along,
-                ring.towards,
-            ),
-        )
-        for ring in mount.screwed
-    ]
-    ahead = [(ring.fastening.joint, piece) for ring, piece in screws if ring.towards < 0.0]
-    on_wheel = [piece for joint, piece in ahead if joint is BoltedJoint.WHEEL]
-    inside = [piece for joint, piece in ahead if joint is not BoltedJoint.WHEEL]
-    behind = [piece for ring, piece in screws if ring.towards > 0.0]
+    behind, inside, on_wheel = list[Piece](), list[Piece](), list[Piece]()
+    for ring in mount.screwed:
+        along = ring.along if ring.by_wheel else floor + ring.along
+        screws = _ring(ring.fastening, ring.circle.radius, -pi / 2.0, along, ring.towards)
+        held = on_wheel if ring.fastening.joint is BoltedJoint.WHEEL else inside
+        (behind if ring.towards > 0.0 else held).append(screws)
     back, guard = ([parts.pop(name)] if name in parts else [] for name in ("cage", "guard"))
     # A motor with a ring on its bell sits in the drum.
     within = [parts.pop("motor")] if mount.bell is not None else []
     drum, lid, base = (parts.pop(name) for name in ("drum", "lid", "foot"))
-    lid_screws = _ring(
-        LID_SCREWS, ear_axis(foot.housing.radius, LID_SCREW), FIRST_EAR, foot.housing.half_height
-    )
+    ears = ear_axis(foot.housing.radius, LID_SCREW)
+    lid_screws = _ring(LID_SCREWS, ears, FIRST_EAR, foot.housing.half_height)
     return (
-        *behind,
-        *back,
-        *parts.values(),
-        *_foot_screws(device),
-        *_pieces_below(device),
-        base,
-        drum,
-        *inside,
-        *within,
-        *guard,
-        *wheel,
-        *on_wheel,
-        lid,
-        lid_screws,
+        *(*behind, *back, *parts.values(), *_foot_screws(device), *_pieces_below(device)),
+        *(base, drum, *inside, *within, *guard, *wheel, *on_wheel, lid, lid_screws),
     )
 
 
@@ -193,16 +161,17 @@ def bonding_pieces(device: Device) -> tuple[Piece, ...]:
     fixture, bell = ring_fixture(device), motor_mount(device).bell
     if fixture is None or bell is None:
         return ()
-    front = Placement(
-        np.diag([1.0, -1.0, -1.0]), np.array([0.0, 0.0, bell.fixture_floor + bell.front])
-    )
+    level = np.array([0.0, 0.0, bell.fixture_floor + bell.front])
+    front = Placement(np.diag([1.0, -1.0, -1.0]), level)
     down = Placement(np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]]), np.zeros(3))
-    parts = placed_parts(device)
-    pieces = [Piece("ring_fixture", part_mesh(fixture, SECTIONS).placed(down))]
+    parts = {"ring_fixture": (fixture, down)}
     for name in ("motor", "flywheel"):
-        part, place = parts[name]
-        pieces.append(Piece(name, part_mesh(part, SECTIONS).placed(down @ front @ place)))
-    return tuple(pieces)
+        part, place = placed_parts(device)[name]
+        parts[name] = part, down @ front @ place
+    return tuple(
+        Piece(name, part_mesh(part, SECTIONS).placed(place))
+        for name, (part, place) in parts.items()
+    )
 
 
 def _ring(
@@ -239,11 +208,8 @@ def _foot_screws(device: Device) -> Iterator[Piece]:
             off = foot.slot_radius * sin(pi / 4.0)
             places, place = [(off, off), (-off, -off)], foot.placement
             under = 0.0
-        heads = [
-            _screw(fastening).moved(np.array([x, y, under + fastening.thickness]))
-            for x, y in places
-        ]
-        screws = merged(heads).placed(place)
+        one, level = _screw(fastening), under + fastening.thickness
+        screws = merged([one.moved(np.array([x, y, level])) for x, y in places]).placed(place)
         apart = -_APART * foot.housing.radius
         yield Piece(fastening, screws, drop=apart, modules=feet.count(fastening))
 
@@ -258,20 +224,14 @@ def _pieces_below(device: Device) -> Iterator[Piece]:
         lowest = 1.5 * apart + max(plate.screw_lengths)
         head = Placement(np.eye(3), np.array([0.0, 0.0, plate.clamped]))
         for fastening in plate.fastenings:
+            bolt = _screw(fastening)
             holes = zip(plate.screw_places, plate.screw_lengths, strict=True)
-            heads = [
-                _screw(fastening).placed(placement_in_plate @ head)
-                for placement_in_plate, length in holes
-                if length == fastening.length
-            ]
+            heads = [bolt.placed(at @ head) for at, length in holes if length == fastening.length]
             yield Piece(fastening, merged(heads).placed(place), drop=apart, shared=True)
         bodies: dict[str, list[Mesh]] = {}
-        for part, placement_in_plate in plate_bodies(plate):
-            bodies.setdefault(part.name, []).append(
-                part_mesh(part, SECTIONS).placed(place @ placement_in_plate)
-            )
-        sleeves = bodies.pop("sleeve", [])
-        if sleeves:
+        for part, at in plate_bodies(plate):
+            bodies.setdefault(part.name, []).append(part_mesh(part, SECTIONS).placed(place @ at))
+        if sleeves := bodies.pop("sleeve", []):
             down = lowest + apart
             yield Piece("sleeves", merged(sleeves), drop=down, shared=True, count=len(sleeves))
         for name, meshes in bodies.items():

@@ -74,10 +74,10 @@ DROP = 0.03e-3
 
 def tools(assembly: Assembly) -> Iterator[str]:
     """Tools that this design needs, without lathe, mill and printer."""
-    device, screws = assembly.device, assembly.screws.values()
-    if screws:
-        least = min(screw_set.torque for screw_set in screws)
-        *others, last = sorted({f"{1e3 * screw_set.fastening.screw.key:g}" for screw_set in screws})
+    device = assembly.device
+    if assembly.screws:
+        least = min(screws.torque for screws in assembly.screws.values())
+        *others, last = sorted({f"{1e3 * each.screw.key:g}" for each in assembly.screws})
         keys = f"{', '.join(others)} and {last}" if others else last
         yield f"torque screwdriver from {significant(least, 1)} N m"
         yield f"hex keys of {keys} mm"
@@ -96,8 +96,8 @@ def tools(assembly: Assembly) -> Iterator[str]:
         small = f"drills of {2e3 * hole:.2g} mm, with spares,"
         yield f"{small if hole >= LEAST_DRILL / 2.0 else 'small grinder'} to balance"
     cut = ["the motor's shaft"] if shaft_cut(device)[1] > 0.0 else []
-    for fastening, tightened_screws in assembly.screws.items():
-        room = room_above(device, tightened_screws) if fastening.joint.of_foot else None
+    for fastening, screws in assembly.screws.items():
+        room = room_above(device, screws) if fastening.joint.of_foot else None
         if room is not None and LEAST_ROOM <= room <= KEY_LEG:
             cut.append(f"the short leg of a hex key of {1e3 * fastening.screw.key:g} mm")
         if fastening.shortened is not None:
@@ -144,21 +144,20 @@ def module_steps(assembly: Assembly) -> Iterator[str]:
     """Steps to make, assemble and test one module."""
     device = assembly.device
     if "drum" in assembly.numbers:
-        caged = "cage" in assembly.numbers
-        hole = foot_of(device).housing.mount.pilot_radius
-        supports = "no supports"
+        hole, supports, milled = foot_of(device).housing.mount.pilot_radius, "no supports", ""
+        parts, ears = "drum, lid and foot", "the drum"
+        if "cage" in assembly.numbers:
+            parts, ears = "drum, lid, foot and cage", "drum and cage"
         if sqrt(2.0) * hole > FREE_SPAN:
             supports += f" except in the hole of {2e3 * hole:.0f} mm of the standing foot"
-        milled = ""
         if foot_hold(device).heads_bear < SHOCK:
             milled = " The foot is milled instead (see Before you start)."
         yield (
-            f"Print drum, lid{', foot and cage' if caged else ' and foot'} in PETG, oriented as "
+            f"Print {parts} in PETG, oriented as "
             "in cad/housing.3mf, one of each, arranged by the slicer on your bed of at least "
             f"{ceil(2e3 * foot_of(device).housing.radius)} mm: 0.2 mm layers, "
             f"100 % infill (strength and masses assume solid parts), {supports}.{milled} Tap the "
-            "ears of "
-            f"{'drum and cage' if caged else 'the drum'} {LID_SCREW.name}."
+            f"ears of {ears} {LID_SCREW.name}."
         )
     yield from _wheel_steps(assembly)
     if "guard" in assembly.numbers:
@@ -196,29 +195,24 @@ def _drive_steps(assembly: Assembly) -> Iterator[str]:
     of_motor = BoltedJoint.MOTOR, BoltedJoint.MOTOR_IN_CAGE
     if "motor" in assembly.numbers and not assembly.screws_of(*of_motor):
         # The motor's threads are not known, nor, behind a gear, its hole.
-        if device.motor.gear_room is not None:
-            yield (
-                f"Fix gear{assembly.number('gear')} and motor{assembly.number('motor')} as "
-                f"described above, the gear's output within {1e3 * RUN_OUT:g} mm of the wheel's "
-                "axis."
-            )
-        else:
-            yield (
-                f"Fix the motor{assembly.number('motor')} to plate and drum, its axis within "
-                f"{1e3 * RUN_OUT:g} mm of the middle of their hole, as described above."
-            )
+        motor, off = f"motor{assembly.number('motor')}", f"within {1e3 * RUN_OUT:g} mm of the"
+        yield (
+            f"Fix the {motor} to plate and drum, its axis {off} middle of their hole, as described "
+            "above."
+            if device.motor.gear_room is None
+            else f"Fix gear{assembly.number('gear')} and {motor} as described above, the gear's "
+            f"output {off} wheel's axis."
+        )
     # Joint of the wheel on its drive; a ring around a bell is already bonded.
     joint = None
     if "drum" in assembly.numbers and not device.on_bell:
-        joint = next(
-            (candidate for candidate in joints_of(device) if candidate.name == SHAFT_JOINT), None
-        )
+        joint = next((each for each in joints_of(device) if each.name == SHAFT_JOINT), None)
     text = {BoltedJoint.MOTOR_IN_CAGE: " Its wires come out between two posts, tied to one."}
     if joint is not None and joint.capacity is not None:
         text[BoltedJoint.WHEEL] = f" They carry the wheel by {joint.note}."
-    for tightened_screws in assembly.screws_of(*of_motor, BoltedJoint.CAGE, BoltedJoint.WHEEL):
-        fastening = tightened_screws.fastening
-        yield f"{assembly.screwed(fastening)}{text.get(fastening.joint, '')}"
+    for screws in assembly.screws_of(*of_motor, BoltedJoint.CAGE, BoltedJoint.WHEEL):
+        joined = screws.fastening
+        yield f"{assembly.screwed(joined)}{text.get(joined.joint, '')}"
     if joint is not None and joint.capacity is None:
         yield f"Mount the wheel on its drive by a joint of your own: {joint.note}."
     elif joint is not None and (strip := _height_strip(assembly)) is not None:
@@ -327,29 +321,19 @@ def _wheel_steps(assembly: Assembly) -> Iterator[str]:
 def _trunk_steps(assembly: Assembly) -> Iterator[str]:
     """Steps to assemble trunk, plate, mast, feet and pedestals."""
     device, foot, standing = assembly.device, foot_of(assembly.device), foot_holes(assembly.device)
-    drilled = [
-        f"{part_name('foot', module)} {' and '.join(places(ends))}"
-        for module, ends in standing.items()
-    ]
+    drilled = [f"{part_name('foot', of)} {' and '.join(places(at))}" for of, at in standing.items()]
     holes = {pedestal.module: pedestal.in_base(pedestal.holes) for pedestal in device.pedestals}
-    drilled += [
-        f"{part_name('pedestal', module)} {', '.join(places(ends))}"
-        for module, ends in holes.items()
-    ]
-    heights = [
-        float(module.position[2]) - foot.wheel_height
-        for module in device.modules
-        if module.name not in holes
-    ]
+    drilled += [f"{part_name('pedestal', of)} {', '.join(places(at))}" for of, at in holes.items()]
+    upright = (module for module in device.modules if module.name not in holes)
+    heights = [float(module.position[2]) - foot.wheel_height for module in upright]
     heights += [pedestal.position[2] for pedestal in device.pedestals]
     stand = " and ".join(dict.fromkeys(f"{1e3 * height:.1f}" for height in heights))
-    if device.layout == PAIR:
-        yield (
-            "Both modules have the same parts. On the robot the right one is turned by half "
-            "a turn about the vertical, so that both motors face inward."
-        )
-    else:
-        yield "All modules have the same parts, each turned to the direction of its wheel's axis."
+    yield (
+        "Both modules have the same parts. On the robot the right one is turned by half "
+        "a turn about the vertical, so that both motors face inward."
+        if device.layout == PAIR
+        else "All modules have the same parts, each turned to the direction of its wheel's axis."
+    )
     frame = "in mm forward and to the left of the origin of the base frame (see Before you start)"
     what = "feet and pedestals" if standing and holes else "pedestals" if holes else "the feet"
     places_of = f"{'; '.join(drilled)}; {what} stand at z = {stand} mm"
@@ -440,43 +424,39 @@ def _plate_steps(assembly: Assembly, plate: CarrierPlate, holes: str) -> Iterato
 
 def _turning_step(assembly: Assembly, standing: Sequence[str]) -> str:
     """Step that turns the feet of these modules to the incidence by their scales."""
-    foot = foot_of(assembly.device)
-    tightened_screws, *_ = assembly.screws_of(BoltedJoint.FOOT_ON_TRUNK, BoltedJoint.FOOT_ON_PLATE)
-    modules = [module for module in assembly.device.modules if module.name in standing]
-    line, readings = _scribed(assembly.device, modules)
-    values = tuple(dict.fromkeys(readings.values()))
-    each_own = (f"{value} ({name})" for name, value in readings.items())
-    scale = values[0] if len(values) == 1 else ", ".join(each_own)
-    # Away from its motor.
-    outward = {
-        module.name: float(np.arctan2(module.frame[1, 1], module.frame[0, 1])) for module in modules
-    }
-    looks = ", ".join(
-        f"{format_quantity(abs(angle), 'deg')} to the {'left' if angle > 0.0 else 'right'} of "
-        f"forward ({name})"
-        for name, angle in outward.items()
-    )
-    long, degree = 360.0 / LONG_MARKS, 1e3 * np.radians(foot.marks_radius)
-    fastening, plate = tightened_screws.fastening, assembly.device.plate
+    device = assembly.device
+    screws, *_ = assembly.screws_of(BoltedJoint.FOOT_ON_TRUNK, BoltedJoint.FOOT_ON_PLATE)
+    modules = [module for module in device.modules if module.name in standing]
+    line, readings = _scribed(device, modules)
+    each_own = ", ".join(f"{value} ({name})" for name, value in readings.items())
+    scale = each_own if len({*readings.values()}) > 1 else readings[standing[0]]
+    looks = []
+    for module in modules:
+        # Away from its motor.
+        angle = float(np.arctan2(module.frame[1, 1], module.frame[0, 1]))
+        side, turn = "left" if angle > 0.0 else "right", format_quantity(abs(angle), "deg")
+        looks.append(f"{turn} to the {side} of forward ({module.name})")
+    long, degree = 360.0 / LONG_MARKS, 1e3 * np.radians(foot_of(device).marks_radius)
+    fastening, plate = screws.fastening, device.plate
     into = "the threads of the plate" if plate else "threads, inserts or nuts of the trunk"
     # Pins through the feet if friction alone does not keep them from turning.
-    unheld, pinned = unheld_moment(assembly.device, assembly.margins), ""
+    unheld, pinned = unheld_moment(device, assembly.margins), ""
     if unheld:
         pinned = (
             " Then drill 3 mm through the base of each foot, clear of its slots, into what it "
             "stands on, and put a pin in: in a maneuver the wheel twists its foot with up to "
             f"{significant(unheld, 2)} N m, and the friction of its screws holds "
-            f"{significant(foot_hold(assembly.device).turning, 2)} N m."
+            f"{significant(foot_hold(device).turning, 2)} N m."
         )
     return (
         f"The scale's 0 is the long mark square to the wheel's axis; marks are {long / 3.0:g} deg "
         f"apart, long ones {long:g}, and a degree is {degree:.2g} mm at their ends. {line}, and "
-        f"turn the foot until that line meets the scale at {scale}, its lid looking {looks}: by "
-        f"eye to a degree.{_marks_apart(assembly.device, modules)} Tighten {fastening.count} x "
-        f"{fastening.designation}{assembly.number(fastening)}{tightened_screws.with_washers}, with "
-        f"{significant(tightened_screws.torque, 2)} N m each, into {into}."
-        f"{_under_motor(assembly, tightened_screws)}{_beside_stem(assembly, tightened_screws)}"
-        f"{pinned}"
+        f"turn the foot until that line meets the scale at {scale}, its lid looking "
+        f"{', '.join(looks)}: by eye to a degree.{_marks_apart(device, modules)} Tighten "
+        f"{fastening.count} x "
+        f"{fastening.designation}{assembly.number(fastening)}{screws.with_washers}, with "
+        f"{significant(screws.torque, 2)} N m each, into {into}."
+        f"{_under_motor(assembly, screws)}{_beside_stem(assembly, screws)}{pinned}"
     )
 
 
@@ -495,11 +475,10 @@ def _scribed(device: Device, modules: Sequence[Module]) -> tuple[str, dict[str, 
     """
     plate, readings = device.plate, dict[str, str]()
     ring = plate is not None and plate.arms > len(SIDES)
+    mates = (_mate(module, modules) for module in modules)
+    ends = [mate.position for mate in mates if mate is not None]
     if plate is not None and ring:
         ends = [np.array(plate.position)] * len(modules)
-    else:
-        mates = (_mate(module, modules) for module in modules)
-        ends = [mate.position for mate in mates if mate is not None]
     if len(ends) < len(modules):
         # The angle of each axis from the lateral direction: in a ring they differ.
         for module in modules:
@@ -528,19 +507,16 @@ def _marks_apart(device: Device, modules: Sequence[Module]) -> str:
         mate = _mate(module, modules)
         if mate is None or module.position[1] < 0.0:
             continue
-        ends = []
-        for foot_module in (module, mate):
-            x, y = foot_module.frame[:2, 1]
-            ahead = np.array([y, -x]) * (1.0 if y > 0.0 else -1.0)
-            ends.append(
-                [foot_module.position[:2] + sense * radius * ahead for sense in (1.0, -1.0)]
-            )
-        front, back = (
-            1e3 * float(np.linalg.norm(one - two)) for one, two in zip(*ends, strict=True)
-        )
+        front, back = [], []
+        for each in (module, mate):
+            x, y = each.frame[:2, 1]
+            ahead = radius * np.array([y, -x]) * (1.0 if y > 0.0 else -1.0)
+            front.append(each.position[:2] + ahead)
+            back.append(each.position[:2] - ahead)
+        before, behind = (1e3 * np.linalg.norm(one - two) for one, two in (front, back))
         degree = 4e3 * np.radians(radius * abs(module.frame[1, 1]))
         if degree >= LEAST_DEGREE:
-            distances_by_degree[f"{front:.1f} mm in front and {back:.1f} mm behind"] = degree
+            distances_by_degree[f"{before:.1f} mm in front and {behind:.1f} mm behind"] = degree
     if not distances_by_degree:
         return ""
     distances, degree = " or ".join(distances_by_degree), min(distances_by_degree.values())
@@ -551,14 +527,11 @@ def _marks_apart(device: Device, modules: Sequence[Module]) -> str:
     )
 
 
-def room_above(device: Device, tightened_screws: Tightened) -> float | None:
+def room_above(device: Device, screws: Tightened) -> float | None:
     """Least space above foot screws under motor or cage [m]; None if there are none."""
-    foot, screw = foot_of(device), tightened_screws.fastening.screw
+    foot, screw, rooms = foot_of(device), screws.fastening.screw, []
     corner = screw.key / sqrt(3.0)
-    top = (
-        float(foot.base) + screw.head_height + (WASHER_HEIGHT if tightened_screws.washers else 0.0)
-    )
-    rooms = []
+    top = float(foot.base) + screw.head_height + (WASHER_HEIGHT if screws.washers else 0.0)
     for along, across in _screws_aside(device):
         overlap = max(0.0, abs(across) - corner)
         rooms += [
@@ -582,9 +555,9 @@ def _screws_aside(device: Device) -> Iterator[tuple[float, float]]:
         yield from ((off, off), (-off, -off))
 
 
-def _under_motor(assembly: Assembly, tightened_screws: Tightened) -> str:
+def _under_motor(assembly: Assembly, screws: Tightened) -> str:
     """How to tighten a foot screw under motor or cage; empty if there is none."""
-    room, screw = room_above(assembly.device, tightened_screws), tightened_screws.fastening.screw
+    room = room_above(assembly.device, screws)
     if room is None:
         return ""
     if room < LEAST_ROOM:
@@ -595,8 +568,8 @@ def _under_motor(assembly: Assembly, tightened_screws: Tightened) -> str:
     cut = "" if room > KEY_LEG else f", its short leg cut to {1e3 * room - 1.0:.0f} mm,"
     return (
         f" One of them is under the motor, with {1e3 * room:.0f} mm above its head: tighten it by "
-        f"a hex key of {1e3 * screw.key:g} mm{cut} with "
-        f"{tightened_screws.torque / KEY_ARM:.1f} N at {1e3 * KEY_ARM:.0f} mm of its long leg."
+        f"a hex key of {1e3 * screws.fastening.screw.key:g} mm{cut} with "
+        f"{screws.torque / KEY_ARM:.1f} N at {1e3 * KEY_ARM:.0f} mm of its long leg."
     )
 
 
@@ -624,10 +597,8 @@ def _pedestal_steps(assembly: Assembly) -> Iterator[str]:
     kinds = pedestal_kinds(assembly.device)
     for kind in kinds:
         name, one = kind.name, kind.alike[0]
-        turned = ", ".join(
-            f"{format_quantity(pedestal.heading, 'deg', digits=3)} ({pedestal.module})"
-            for pedestal in kind.alike
-        )
+        headings = ((format_quantity(at.heading, "deg", digits=3), at.module) for at in kind.alike)
+        turned = ", ".join(f"{heading} ({module})" for heading, module in headings)
         yield (
             f"Print {len(kind.alike)} x {name}{assembly.number(name)} (cad/{name}.stl) in PETG on "
             "its side at 100 % infill, as its strength assumes; tap the 2 holes of its seat "

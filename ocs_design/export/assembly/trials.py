@@ -155,10 +155,10 @@ def spin_test(assembly: Assembly) -> Iterator[str]:
     steps = ", ".join(f"{share:.0%} ({rpm(share * speed)})" for share in SPIN_STEPS)
     # On the bench only its own foot is under it.
     alone = replace(assembly.device, plate=None, pedestals=())
-    foot = [mode for mode in resonances_of(alone) if mode.name == "foot"]
     past = "".join(
         f" Pass quickly through {60.0 * mode.frequency:,.0f} rpm, where the foot shakes."
-        for mode in foot
+        for mode in resonances_of(alone)
+        if mode.name == "foot"
     )
     yield f"Run one minute each at {steps}; stop, feel the motor and check all screws.{past}"
     motor = assembly.device.motor
@@ -167,17 +167,13 @@ def spin_test(assembly: Assembly) -> Iterator[str]:
     over = rpm(share * speed)
     if share < SPIN_TEST:
         over += ", the limit of motor and wheel"
-    supply = (
-        ""
-        if motor.bus_voltage is None or share <= 1.0
-        else f", which takes {share * motor.bus_voltage:.3g} V"
-    )
-    stressed, stress = yield_margin(assembly.device, share * speed), ""
-    if stressed is not None:
+    if motor.bus_voltage is not None and share > 1.0:
+        over += f", which takes {share * motor.bus_voltage:.3g} V"
+    over += ". Raise the controller's speed limit for it." if share > 1.0 else "."
+    if (stressed := yield_margin(assembly.device, share * speed)) is not None:
         where, factor = stressed
-        stress = f" The yield strength is then {factor:.1f} times the largest stress, in {where}."
-    raised = " Raise the controller's speed limit for it." if share > 1.0 else ""
-    yield f"Once, for ten seconds, {share:.0%}: {over}{supply}.{raised}{stress}"
+        over += f" The yield strength is then {factor:.1f} times the largest stress, in {where}."
+    yield f"Once, for ten seconds, {share:.0%}: {over}"
     yield (
         "It fails if anything hums that did not before, if the vibration rises between two "
         "steps other than with the square of the speed, if the run-out has changed, if a screw "
@@ -199,10 +195,8 @@ def sweep(assembly: Assembly) -> Iterator[str]:
     flown = demand_of(assembly.margins, "wheel speed")
     reached = flown or top
     most = "what the maneuvers reach at most" if flown else "its top speed"
-    computed = ", ".join(
-        f"{mode.name} {60.0 * mode.frequency:,.0f} rpm"
-        for mode in sorted(modes, key=lambda mode: mode.frequency)
-    )
+    rising = sorted(modes, key=lambda mode: mode.frequency)
+    computed = ", ".join(f"{mode.name} {60.0 * mode.frequency:,.0f} rpm" for mode in rising)
     yield (
         "Hold the robot by its trunk, lids on, nobody in the wheels' planes, an accelerometer "
         "taped to one foot. Run that module's wheel alone from standstill to "
@@ -220,11 +214,11 @@ def sweep(assembly: Assembly) -> Iterator[str]:
                 f"with {_two(mode.acceleration_at(reached) / STANDARD_GRAVITY)} times its weight, "
                 f"and at the mode itself with {_two(mode.acceleration / STANDARD_GRAVITY)} times."
             )
+    where = "stem of the foot" if device.plate is None else "plate beside its feet"
     cures = [
         f"balance that wheel again, to G {FINE_GRADE:g}, which leaves "
         f"{FINE_GRADE / GRADE:.0%} of the excitation",
-        "stick damping tape (butyl under aluminium foil) on the "
-        f"{'plate beside its feet' if device.plate is not None else 'stem of the foot'}",
+        f"stick damping tape (butyl under aluminium foil) on the {where}",
         *_stiffer(device, modes),
     ]
     yield (
@@ -260,8 +254,7 @@ def safety(assembly: Assembly) -> Iterator[str]:
         return
     count = len(assembly.device.modules)
     energy = stored_energy(assembly.device.flywheel.spin_inertia, speed)
-    both = demand_of(assembly.margins, "stored energy")
-    flown = ""
+    flown, both = "", demand_of(assembly.margins, "stored energy")
     if both is not None:
         where = "in all wheels" if count > 1 else "in it"
         flown = f"; the planned maneuvers reach {significant(both, 3)} J {where}"
@@ -319,18 +312,18 @@ def _runaway(assembly: Assembly) -> Iterator[str]:
     top = assembly.top_speed
     if top is None or motor.bus_voltage is None or not math.isfinite(motor.no_load_speed):
         return
-    speed = SPIN_TEST * motor.no_load_speed
+    speed, verdict = SPIN_TEST * motor.no_load_speed, ""
     worst = burst_of(assembly.device, speed)
-    containment = f"holding it takes {_at_least(worst.steel)} mm of mild steel"
     if built:
-        verdict = "thick enough" if built >= worst.steel else "too thin"
-        containment += f", and the ring built in is {verdict}"
+        enough = "thick enough" if built >= worst.steel else "too thin"
+        verdict = f", and the ring built in is {enough}"
     yield (
         f"The wheel law, which computes with {motor.bus_voltage:g} V, drives no wheel past "
         f"{rpm(top)}, however full the battery is, and brakes one that is faster. A controller "
         "that ignores it may run away: on a battery with "
         f"{SPIN_TEST:.0%} of that voltage to {rpm(speed)}, where a third of the wheel has "
-        f"{_two(worst.fragment.energy)} J; {containment}."
+        f"{_two(worst.fragment.energy)} J; holding it takes {_at_least(worst.steel)} mm of mild "
+        f"steel{verdict}."
     )
 
 

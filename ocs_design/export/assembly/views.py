@@ -9,28 +9,14 @@ from ocs_design.actuation.fasteners import Fastening
 from ocs_design.common.arrays import FloatArray
 from ocs_design.export.assembly.line_art import section_lines, visible_lines
 from ocs_design.export.assembly.placed import Piece
-from ocs_design.export.drawing.sheet import (
-    CENTRE,
-    OUTLINE,
-    THIN,
-    Anchor,
-    Box,
-    Circle,
-    Item,
-    Lettering,
-    Line,
-    Pen,
-    Polyline,
-    Scale,
-    hatching,
-    largest_scale,
-)
+from ocs_design.export.drawing import sheet
+from ocs_design.export.drawing.sheet import Anchor, Box, Circle, Item, Lettering, Line, Polyline
 from ocs_design.export.meshes import Mesh
 from ocs_design.export.raster import view_of
 
 _CAMERA, _UP = (0.80, -0.38, 0.55), (0.0, -1.0, 0.0)
 
-_PEN = Pen(0.25)
+_PEN = sheet.Pen(0.25)
 
 _GAPS, _SCREW_GAP = (1.4, 1.2, 1.05, 0.9, 0.8, 0.7, 0.6, 0.52, 0.45, 0.4), 0.55
 """Gaps to try between exploded pieces, relative to the largest radius; factor before screws."""
@@ -72,7 +58,7 @@ def pulled_apart(pieces: Sequence[Piece], between: float) -> tuple[Piece, ...]:
 
 def exploded_view(
     pieces: Sequence[Piece], numbers: Mapping[str | Fastening, int], box: Box
-) -> tuple[list[Item], Scale]:
+) -> tuple[list[Item], sheet.Scale]:
     """Exploded view in the middle of a box of the sheet [mm], with its scale."""
     view = view_of(_CAMERA, _UP)
     left, top, right, bottom = box
@@ -99,7 +85,7 @@ def exploded_view(
     heights = np.concatenate([piece.mesh.vertices[:, 2] for piece in apart])
     ends = np.array([[0.0, 0.0, heights.min() - 0.01], [0.0, 0.0, heights.max() + 0.01]])
     ends = np.asarray((ends @ view.T)[:, :2])
-    items.append(Line(place(ends[0]), place(ends[1]), CENTRE))
+    items.append(Line(place(ends[0]), place(ends[1]), sheet.CENTRE))
     above, below = [], []
     for piece, mesh, chains in zip(apart, meshes, lines, strict=True):
         # Hidden pieces get a leader, too.
@@ -120,7 +106,7 @@ def section_view(
     box: Box,
     *,
     standing: bool = False,
-) -> tuple[list[Item], Scale]:
+) -> tuple[list[Item], sheet.Scale]:
     """Section along the axis, upright, in the middle of a box of the sheet [mm], with its scale.
 
     The axis of the pieces is z and points right; if they are `standing`, it is y and vertical.
@@ -146,8 +132,8 @@ def section_view(
         lines = [tuple(map(place, chain)) for chain in chains]
         if piece.fastening is None and piece.key not in _BOUGHT:
             # Adjacent parts are hatched in opposite directions; bought parts are not hatched.
-            items += hatching(*lines, mirrored=next(leaning))
-        pen = THIN if piece.fastening is not None else OUTLINE
+            items += sheet.hatching(*lines, mirrored=next(leaning))
+        pen = sheet.THIN if piece.fastening is not None else sheet.OUTLINE
         items += [Polyline(line, pen) for line in lines]
         corners = np.concatenate(chains)
         behind = float(corners[:, 0].mean()) < middle[0]
@@ -156,7 +142,7 @@ def section_view(
         outer = corners[np.lexsort((-corners[:, 1], np.rint(1e6 * ends)))[0]]
         by_side[behind].append((numbers[piece.key], place(outer)))
     along = np.array([0.0, 1.0] if standing else [1.0, 0.0])
-    items.append(Line(place(along * (low - 0.004)), place(along * (high + 0.004)), CENTRE))
+    items.append(Line(place(along * (low - 0.004)), place(along * (high + 0.004)), sheet.CENTRE))
     for behind, marks in by_side.items():
         x = left + BALLOON if behind else right - BALLOON
         items += _balloons(marks, 1, x, (top, bottom))
@@ -164,7 +150,7 @@ def section_view(
 
 
 def _placing(
-    scale: Scale, middle: FloatArray, box: Box
+    scale: sheet.Scale, middle: FloatArray, box: Box
 ) -> Callable[[FloatArray], tuple[float, float]]:
     """Map from the picture, up positive [m], to the sheet: `middle` goes to the box's centre."""
     left, top, right, bottom = box
@@ -178,9 +164,9 @@ def _placing(
     return place
 
 
-def _fitting(size: FloatArray, room: FloatArray) -> Scale:
+def _fitting(size: FloatArray, room: FloatArray) -> sheet.Scale:
     """Largest scale at which a size [m] fits a space on the sheet [mm]."""
-    return largest_scale(*zip(size.tolist(), room.tolist(), strict=True), standard=False)
+    return sheet.largest_scale(*zip(size.tolist(), room.tolist(), strict=True), standard=False)
 
 
 def _balloons(
@@ -202,9 +188,9 @@ def _balloons(
         away = np.subtract(to, at)
         start = np.add(at, away * BALLOON / max(float(np.linalg.norm(away)), BALLOON))
         items += [
-            Circle(at, BALLOON, THIN),
-            Line((float(start[0]), float(start[1])), to, THIN),
-            Circle(to, 0.4, THIN),
+            Circle(at, BALLOON, sheet.THIN),
+            Line((float(start[0]), float(start[1])), to, sheet.THIN),
+            Circle(to, 0.4, sheet.THIN),
             Lettering((at[0], at[1] + 1.25), str(number), 2.5, Anchor.MIDDLE),
         ]
     return items

@@ -8,24 +8,8 @@ from ocs_design.common.units import rpm, significant
 from ocs_design.device.device import Device
 from ocs_design.device.joints import burst_of
 from ocs_design.device.solids import foot_of
-from ocs_design.export.drawing.sheet import (
-    CENTRE,
-    Anchor,
-    Area,
-    Circle,
-    Item,
-    Lettering,
-    Line,
-    centre_lines,
-    extension_line,
-    hatching,
-    horizontal_dimension,
-    leader,
-    outline,
-    rectangle,
-    vertical_dimension,
-    viewing_arrow,
-)
+from ocs_design.export.drawing import sheet
+from ocs_design.export.drawing.sheet import Anchor, Circle, Item, Lettering, Line
 from ocs_design.export.drawing.title_block import (
     Entries,
     complete_sheet,
@@ -89,15 +73,15 @@ def _section(ring: Rim, layout: SheetLayout) -> Iterator[Item]:
         scale(length) for length in (ring.height / 2.0, ring.outer_radius, ring.inner_radius)
     )
     for near, far in ((y - edge, y - bore), (y + bore, y + edge)):
-        corners = rectangle(x - half, near, x + half, far)
+        corners = sheet.rectangle(x - half, near, x + half, far)
         if edge - bore < _THIN_FACE:
-            yield Area(corners)
+            yield sheet.Area(corners)
         else:
-            yield from (*outline(corners), *hatching(corners))
+            yield from (*sheet.outline(corners), *sheet.hatching(corners))
     # Its ends behind the cutting plane.
-    yield from outline(rectangle(x - half, y - bore, x + half, y + bore))
-    yield Line((x - half - 4.0, y), (x + half + 4.0, y), CENTRE)
-    yield from vertical_dimension(
+    yield from sheet.outline(sheet.rectangle(x - half, y - bore, x + half, y + bore))
+    yield Line((x - half - 4.0, y), (x + half + 4.0, y), sheet.CENTRE)
+    yield from sheet.vertical_dimension(
         f"Ø{_limited(2.0 * ring.outer_radius, lower=OUTSIDE_UNDER)}",
         x=x - half - FIRST_COLUMN,
         middle=y,
@@ -105,8 +89,8 @@ def _section(ring: Rim, layout: SheetLayout) -> Iterator[Item]:
         outline_x=x - half,
     )
     above = y - edge - RIM_WIDTH_DISTANCE
-    yield from (extension_line(end, y - edge, above) for end in (x - half, x + half))
-    yield from horizontal_dimension(
+    yield from (sheet.extension_line(end, y - edge, above) for end in (x - half, x + half))
+    yield from sheet.horizontal_dimension(
         _limited(ring.height, lower=HEIGHT_UNDER),
         left=x - half,
         right=x + half,
@@ -115,7 +99,7 @@ def _section(ring: Rim, layout: SheetLayout) -> Iterator[Item]:
     )
     wall = f"wall {_limited(ring.outer_radius - ring.inner_radius, upper=WALL_OVER)}"
     shelf = (x + half + CHAMFER_ASIDE, y + edge + CHAMFER_BELOW)
-    yield from leader([wall], (x + half / 2.0, y + (edge + bore) / 2.0), 0.0, shelf)
+    yield from sheet.leader([wall], (x + half / 2.0, y + (edge + bore) / 2.0), 0.0, shelf)
     yield Lettering((x, above - 7.0), "A–A", 5.0, Anchor.MIDDLE)
 
 
@@ -124,9 +108,9 @@ def _front(ring: Rim, layout: SheetLayout) -> Iterator[Item]:
     (x, y), edge = layout.front, layout.scale(ring.outer_radius)
     for radius in (ring.outer_radius, ring.inner_radius):
         yield Circle((x, y), layout.scale(radius))
-    yield from centre_lines((x, y), edge + 3.0)
+    yield from sheet.centre_lines((x, y), edge + 3.0)
     for down in (False, True):
-        yield from viewing_arrow(x=x, edge=y + edge if down else y - edge, down=down)
+        yield from sheet.viewing_arrow(x=x, edge=y + edge if down else y - edge, down=down)
 
 
 def _limited(size: float, *, lower: float = 0.0, upper: float = 0.0) -> str:

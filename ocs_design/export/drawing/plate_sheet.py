@@ -8,7 +8,6 @@ plate's underside.
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from functools import partial
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -17,32 +16,8 @@ import numpy as np
 from ocs_design.actuation.fasteners import screw
 from ocs_design.common.arrays import FloatArray
 from ocs_design.device.device import Device
-from ocs_design.export.drawing.sheet import (
-    ARROW,
-    CENTRE,
-    FRAME_BOX,
-    OUTLINE,
-    THIN,
-    Anchor,
-    Area,
-    Box,
-    Circle,
-    Item,
-    Lettering,
-    Line,
-    Point,
-    Polyline,
-    Scale,
-    arrow,
-    centre_lines,
-    extension_line,
-    fits_inside,
-    horizontal_dimension,
-    largest_scale,
-    outline,
-    rectangle,
-    vertical_dimension,
-)
+from ocs_design.export.drawing import sheet
+from ocs_design.export.drawing.sheet import Anchor, Circle, Item, Lettering, Line, Point, Polyline
 from ocs_design.export.drawing.title_block import (
     Entries,
     complete_sheet,
@@ -54,15 +29,15 @@ from ocs_design.parts.carrier_plate import CarrierPlate, Mast, mast_part, plate_
 from ocs_design.parts.dog_bone import directions
 from ocs_design.parts.outline import flat_outline
 
-LEFT, TOP, RIGHT, _ = FRAME_BOX
+LEFT, TOP, RIGHT, _ = sheet.FRAME_BOX
 
 _TABLE = 62.0
 """Width of the table of holes [mm]."""
 
-_VIEW: Box = (LEFT + 30.0, TOP + 8.0, RIGHT - _TABLE - 12.0, 122.0)
+_VIEW: sheet.Box = (LEFT + 30.0, TOP + 8.0, RIGHT - _TABLE - 12.0, 122.0)
 """Box of the plate's outline, with room for its dimensions around it [mm]."""
 
-_MAST_VIEW: Box = (LEFT + 34.0, TOP + 8.0, RIGHT - 60.0, 118.0)
+_MAST_VIEW: sheet.Box = (LEFT + 34.0, TOP + 8.0, RIGHT - 60.0, 118.0)
 
 _ROW = 5.0
 """Height of a row of the table of holes [mm]."""
@@ -91,36 +66,23 @@ def plate_sheets(device: Device, robot: str, refused: str = "") -> list[list[Ite
     plate = device.plate
     if plate is None:
         return []
-    count = len(plate.kinds) + (plate.mast is not None)
-    entries_of = partial(
-        Entries, robot=robot, material=plate.material, identity=device_hash(device)
-    )
-    sheets = []
-    for number, indices in enumerate(plate.kinds, start=1):
+    drawn = []
+    for indices in plate.kinds:
         sample = plate.single_plates[indices[0]]
-        scale, view = _top_view(sample)
-        entries = entries_of(
-            title=_title(plate, indices),
-            scale=scale,
-            mass=plate_part(sample).mass(),
-            figure=("Thickness", f"{in_mm(plate.thickness)} (EN 485-4)"),
-            texture="as rolled, edges Ra 6.3 (ISO 21920)",
-            sheet=f"{number} / {count}",
-        )
-        middles = [plate.single_plates[index].position[:2] for index in indices]
-        sheets.append(complete_sheet(view, _plate_notes(sample, middles), entries, refused))
-    mast = plate.mast
-    if mast is not None:
-        scale, view = _mast_views(plate, mast)
-        entries = entries_of(
-            title="Mast behind the trunk",
-            scale=scale,
-            mass=mast_part(plate, mast).mass(),
-            figure=("Square tube", f"{in_mm(mast.side)} x {in_mm(mast.wall)} (EN 755-8)"),
-            texture="as drawn (extruded)",
-            sheet=f"{count} / {count}",
-        )
-        sheets.append(complete_sheet(view, _mast_notes(plate, mast), entries, refused))
+        figure = "Thickness", f"{in_mm(plate.thickness)} (EN 485-4)"
+        figures = plate_part(sample).mass(), figure, "as rolled, edges Ra 6.3 (ISO 21920)"
+        notes = _plate_notes(sample, [plate.single_plates[at].position[:2] for at in indices])
+        drawn.append((_title(plate, indices), _top_view(sample), figures, notes))
+    if (mast := plate.mast) is not None:
+        figure = "Square tube", f"{in_mm(mast.side)} x {in_mm(mast.wall)} (EN 755-8)"
+        figures = mast_part(plate, mast).mass(), figure, "as drawn (extruded)"
+        view, notes = _mast_views(plate, mast), _mast_notes(plate, mast)
+        drawn.append(("Mast behind the trunk", view, figures, notes))
+    sheets, identity = [], device_hash(device)
+    for number, (title, (scale, items), figures, notes) in enumerate(drawn, start=1):
+        place = f"{number} / {len(drawn)}"
+        entries = Entries(title, robot, scale, plate.material, *figures, identity, place)
+        sheets.append(complete_sheet(items, notes, entries, refused))
     return sheets
 
 
@@ -153,22 +115,21 @@ def _holes(plate: CarrierPlate) -> list[Hole]:
         (f"Ø{in_mm(clearance)}", clearance, plate.trunk),
         (f"Ø{in_mm(window)}", window, windows),
     )
+    lettered = zip("ABC", (kind for kind in kinds if kind[2]), strict=False)
     return [
         Hole(f"{letter}{number}", size, diameter, (x, y))
-        for letter, (size, diameter, places) in zip(
-            "ABC", (kind for kind in kinds if kind[2]), strict=False
-        )
+        for letter, (size, diameter, places) in lettered
         for number, (x, y) in enumerate(places, start=1)
     ]
 
 
-def _top_view(plate: CarrierPlate) -> tuple[Scale, list[Item]]:
+def _top_view(plate: CarrierPlate) -> tuple[sheet.Scale, list[Item]]:
     """The plate from above with its dimensions, its edge below, and the table of holes."""
     corners = flat_outline(plate.shape.outline())
     low, high = corners.min(axis=0), corners.max(axis=0)
     left, top, right, bottom = _VIEW
     length, width, thickness = plate.sizes
-    scale = largest_scale((width, right - left), (length + thickness, bottom - top - 20.0))
+    scale = sheet.largest_scale((width, right - left), (length + thickness, bottom - top - 20.0))
     offset = scale(float(low[1] + high[1])) / 2.0
     middle = (left + right) / 2.0 + offset, top + 8.0 + scale(float(high[0]))
 
@@ -177,18 +138,18 @@ def _top_view(plate: CarrierPlate) -> tuple[Scale, list[Item]]:
         return middle[0] - scale(y), middle[1] - scale(x)
 
     corners_on_sheet = [place(float(x), float(y)) for x, y in corners]
-    items: list[Item] = [Polyline((*corners_on_sheet, corners_on_sheet[0]), OUTLINE)]
+    items: list[Item] = [Polyline((*corners_on_sheet, corners_on_sheet[0]), sheet.OUTLINE)]
     holes = [(hole.name, place(*hole.at), scale(hole.diameter) / 2.0) for hole in _holes(plate)]
     for _, at, radius in holes:
-        items += [Circle(at, radius), *centre_lines(at, radius + _CROSS)]
+        items += [Circle(at, radius), *sheet.centre_lines(at, radius + _CROSS)]
     edge_left, edge_right = (place(0.0, float(y))[0] for y in (high[1], low[1]))
     upper, lower = place(float(high[0]), 0.0)[1], place(float(low[0]), 0.0)[1]
     items += [
-        Line((edge_left - 3.0, middle[1]), (edge_right + 3.0, middle[1]), CENTRE),
-        Line((middle[0], upper - 3.0), (middle[0], lower + 3.0), CENTRE),
-        arrow((middle[0], upper - 3.0), (0.0, -1.0)),
+        Line((edge_left - 3.0, middle[1]), (edge_right + 3.0, middle[1]), sheet.CENTRE),
+        Line((middle[0], upper - 3.0), (middle[0], lower + 3.0), sheet.CENTRE),
+        sheet.arrow((middle[0], upper - 3.0), (0.0, -1.0)),
         Lettering((middle[0] + 2.0, upper - 2.0), "x, forward", 1.8),
-        arrow((edge_left - 3.0, middle[1]), (-1.0, 0.0)),
+        sheet.arrow((edge_left - 3.0, middle[1]), (-1.0, 0.0)),
         Lettering((edge_left - 4.0, middle[1] - 2.0), "y, left", 1.8, Anchor.END),
         *_height_dimension(in_mm(length), edge_right, (upper, lower)),
     ]
@@ -200,11 +161,11 @@ def _top_view(plate: CarrierPlate) -> tuple[Scale, list[Item]]:
     # The edge seen from the front, below the plate in first-angle projection.
     edge_top = lower + 14.0
     edge_bottom = edge_top + scale(thickness)
-    items += outline(rectangle(edge_left, edge_top, edge_right, edge_bottom))
+    items += sheet.outline(sheet.rectangle(edge_left, edge_top, edge_right, edge_bottom))
     items += _height_dimension(in_mm(thickness), edge_right, (edge_top, edge_bottom))
     y = edge_bottom + 7.0
-    items += [extension_line(x, edge_bottom, y) for x in (edge_left, edge_right)]
-    items += horizontal_dimension(in_mm(width), left=edge_left, right=edge_right, y=y)
+    items += [sheet.extension_line(x, edge_bottom, y) for x in (edge_left, edge_right)]
+    items += sheet.horizontal_dimension(in_mm(width), left=edge_left, right=edge_right, y=y)
     return scale, [*items, *_hole_table(plate)]
 
 
@@ -222,7 +183,7 @@ def _points(item: Item) -> FloatArray:
             corners: Sequence[Point] = (start, end)
         case Polyline(points):
             corners = points
-        case Area(points):
+        case sheet.Area(points):
             corners = (*points, points[0])
         case Lettering():
             x, y = item.start
@@ -283,7 +244,7 @@ def _hole_table(plate: CarrierPlate) -> Iterator[Item]:
         for column, cell in zip(columns, row, strict=True):
             yield Lettering((column, y), cell)
         y += _ROW
-        yield Line((x, y - 3.6), (RIGHT - 4.0, y - 3.6), THIN)
+        yield Line((x, y - 3.6), (RIGHT - 4.0, y - 3.6), sheet.THIN)
 
 
 def _plate_notes(plate: CarrierPlate, middles: list[tuple[float, float]]) -> Iterator[str]:
@@ -317,12 +278,12 @@ def _plate_notes(plate: CarrierPlate, middles: list[tuple[float, float]]) -> Ite
         )
 
 
-def _mast_views(plate: CarrierPlate, mast: Mast) -> tuple[Scale, list[Item]]:
+def _mast_views(plate: CarrierPlate, mast: Mast) -> tuple[sheet.Scale, list[Item]]:
     """The mast seen from the left, with forward to the left, and seen from behind."""
     half_side, arm_end = mast.side / 2.0, -plate.neck
     length, height = mast.face + mast.off - arm_end, mast.high - mast.low
     left, top, right, bottom = _MAST_VIEW
-    scale = largest_scale(
+    scale = sheet.largest_scale(
         (length + mast.side, right - left - _VIEW_DISTANCE), (height, bottom - top - 12.0)
     )
     start = left + scale(mast.face + mast.off)
@@ -349,15 +310,15 @@ def _mast_views(plate: CarrierPlate, mast: Mast) -> tuple[Scale, list[Item]]:
         outermost = zip(plate.relief.heights.max(axis=0).tolist(), plate.relief.y, strict=True)
         form = [side(mast.face + thick, float(z)) for thick, z in outermost]
         lower, upper = side(mast.face, low), side(mast.face, block_high)
-        items.append(Polyline((lower, *form, upper, lower), OUTLINE))
+        items.append(Polyline((lower, *form, upper, lower), sheet.OUTLINE))
     elif mast.spacer > 0.0:
         items += _rectangle_between(side(mast.face + mast.spacer, block_high), side(mast.face, low))
     radius = scale(plate.screw.clearance_hole) / 2.0
     for y, z in plate.trunk:
-        items += [Circle(back(y, z), radius), *centre_lines(back(y, z), radius + 2.0)]
+        items += [Circle(back(y, z), radius), *sheet.centre_lines(back(y, z), radius + 2.0)]
     for z in sorted({z for _, z in plate.trunk}):
         (front_x, level_y), (rear_x, _) = side(mast.face + mast.off, z), side(mast.back, z)
-        items.append(Line((front_x - 3.0, level_y), (rear_x + 3.0, level_y), CENTRE))
+        items.append(Line((front_x - 3.0, level_y), (rear_x + 3.0, level_y), sheet.CENTRE))
     # Heights of ends and holes above the underside of the lowest plate.
     labels_x = back(-half_side, 0.0)[0]
     marks = {mast.high, mast.low, *plate.heights, *(z for _, z in plate.trunk)}
@@ -373,25 +334,18 @@ def _mast_views(plate: CarrierPlate, mast: Mast) -> tuple[Scale, list[Item]]:
         ]
     y = back(0.0, mast.low)[1] + 8.0
     front, rear = side(mast.face, mast.low)[0], side(arm_end, 0.0)[0]
-    items += [extension_line(front, back(0.0, mast.low)[1], y)]
-    items += [extension_line(rear, side(0.0, min(plate.heights) - mast.side)[1], y)]
-    items += horizontal_dimension(in_mm(mast.face - arm_end), left=front, right=rear, y=y)
+    items += [sheet.extension_line(front, back(0.0, mast.low)[1], y)]
+    items += [sheet.extension_line(rear, side(0.0, min(plate.heights) - mast.side)[1], y)]
+    items += sheet.horizontal_dimension(in_mm(mast.face - arm_end), left=front, right=rear, y=y)
     hole_columns = sorted({round(y, 9) for y, _ in plate.trunk})
-    items += [
-        extension_line(back(column, 0.0)[0], back(0.0, mast.low)[1], y) for column in hole_columns
-    ]
-    ends = back(hole_columns[-1], 0.0)[0], back(hole_columns[0], 0.0)[0]
-    items += horizontal_dimension(
-        in_mm(hole_columns[-1] - hole_columns[0]),
-        left=ends[0],
-        right=ends[1],
-        y=y,
-        text_x=ends[1] + 8.0,
+    columns = [back(column, 0.0)[0] for column in hole_columns]
+    items += [sheet.extension_line(column, back(0.0, mast.low)[1], y) for column in columns]
+    label, right_end = in_mm(hole_columns[-1] - hole_columns[0]), columns[0]
+    items += sheet.horizontal_dimension(
+        label, left=columns[-1], right=right_end, y=y, text_x=right_end + 8.0
     )
-    items.append(
-        Lettering(((front + rear) / 2.0, top_y - 4.0), "from the left", 2.5, Anchor.MIDDLE)
-    )
-    items.append(Lettering((behind, top_y - 4.0), "from behind", 2.5, Anchor.MIDDLE))
+    for middle, words in (((front + rear) / 2.0, "from the left"), (behind, "from behind")):
+        items.append(Lettering((middle, top_y - 4.0), words, 2.5, Anchor.MIDDLE))
     return scale, items
 
 
@@ -432,7 +386,7 @@ def _mast_notes(plate: CarrierPlate, mast: Mast) -> Iterator[str]:
 
 def _rectangle_between(corner: Point, other: Point) -> list[Item]:
     (x0, y0), (x1, y1) = corner, other
-    return outline(rectangle(min(x0, x1), min(y0, y1), max(x0, x1), max(y0, y1)))
+    return sheet.outline(sheet.rectangle(min(x0, x1), min(y0, y1), max(x0, x1), max(y0, y1)))
 
 
 def _height_dimension(label: str, outline_x: float, ends: tuple[float, float]) -> Iterator[Item]:
@@ -440,13 +394,13 @@ def _height_dimension(label: str, outline_x: float, ends: tuple[float, float]) -
     upper, lower = ends
     x = outline_x + 9.0
     yield from (Line((outline_x + 0.75, y), (x + 1.5, y)) for y in ends)
-    if fits_inside(label, lower - upper):
+    if sheet.fits_inside(label, lower - upper):
         middle, half = (upper + lower) / 2.0, (lower - upper) / 2.0
-        yield from vertical_dimension(label, x=x, middle=middle, half=half, outline_x=x)
+        yield from sheet.vertical_dimension(label, x=x, middle=middle, half=half, outline_x=x)
         return
     yield from (
-        Line((x, upper - 2.0 * ARROW), (x, lower + 2.0 * ARROW)),
-        arrow((x, upper), (0.0, 1.0)),
-        arrow((x, lower), (0.0, -1.0)),
-        Lettering((x + 1.5, upper - ARROW), label),
+        Line((x, upper - 2.0 * sheet.ARROW), (x, lower + 2.0 * sheet.ARROW)),
+        sheet.arrow((x, upper), (0.0, 1.0)),
+        sheet.arrow((x, lower), (0.0, -1.0)),
+        Lettering((x + 1.5, upper - sheet.ARROW), label),
     )

@@ -9,35 +9,16 @@ import msgspec
 from ocs_design import __version__
 from ocs_design.common.units import significant
 from ocs_design.device.device import Device
-from ocs_design.export.drawing.sheet import (
-    CENTRE,
-    FRAME,
-    FRAME_BOX,
-    HEIGHT,
-    LEADING,
-    MARGIN,
-    MARGIN_LEFT,
-    THIN,
-    WIDTH,
-    Anchor,
-    Circle,
-    Item,
-    Lettering,
-    Line,
-    Scale,
-    outline,
-    rectangle,
-    truncated,
-    wrapped,
-)
+from ocs_design.export.drawing import sheet
+from ocs_design.export.drawing.sheet import Anchor, Circle, Item, Lettering, Line, Scale
 
-_, TOP, RIGHT, BOTTOM = FRAME_BOX
+_, TOP, RIGHT, BOTTOM = sheet.FRAME_BOX
 BLOCK_WIDTH, ROW_HEIGHT, ROWS = 180.0, 9.0, 4
 """Size of the title block [mm]; its width is the standard's."""
 
 BLOCK_LEFT, BLOCK_TOP = RIGHT - BLOCK_WIDTH, BOTTOM - ROWS * ROW_HEIGHT
 
-NOTES_LEFT, NOTES_TOP = MARGIN_LEFT + 3.0, 145.0
+NOTES_LEFT, NOTES_TOP = sheet.MARGIN_LEFT + 3.0, 145.0
 """Position of the notes' first line [mm]."""
 
 NOTE_HEIGHT, SMALL_NOTE_HEIGHT = 2.5, 1.8
@@ -80,17 +61,17 @@ def title_of(part: str, count: int) -> str:
 
 def frame() -> list[Item]:
     """Frame around the drawing, with a mark at the middle of each side."""
-    left, top, right, bottom = FRAME_BOX
-    middle_x, middle_y = WIDTH / 2.0, HEIGHT / 2.0
+    left, top, right, bottom = sheet.FRAME_BOX
+    middle_x, middle_y = sheet.WIDTH / 2.0, sheet.HEIGHT / 2.0
     marks = [
-        ((middle_x, 0.0), (middle_x, MARGIN)),
-        ((middle_x, HEIGHT), (middle_x, HEIGHT - MARGIN)),
-        ((0.0, middle_y), (MARGIN_LEFT, middle_y)),
-        ((WIDTH, middle_y), (WIDTH - MARGIN, middle_y)),
+        ((middle_x, 0.0), (middle_x, sheet.MARGIN)),
+        ((middle_x, sheet.HEIGHT), (middle_x, sheet.HEIGHT - sheet.MARGIN)),
+        ((0.0, middle_y), (sheet.MARGIN_LEFT, middle_y)),
+        ((sheet.WIDTH, middle_y), (sheet.WIDTH - sheet.MARGIN, middle_y)),
     ]
     return [
-        *outline(rectangle(left, top, right, bottom), FRAME),
-        *(Line(start, end, FRAME) for start, end in marks),
+        *sheet.outline(sheet.rectangle(left, top, right, bottom), sheet.FRAME),
+        *(Line(start, end, sheet.FRAME) for start, end in marks),
     ]
 
 
@@ -171,25 +152,26 @@ def _title_block(entries: Entries) -> list[Item]:
             (36.0, "Date", "", 2.5),
         ),
     )
-    items = outline(rectangle(BLOCK_LEFT, BLOCK_TOP, RIGHT, BOTTOM), FRAME)
+    items = sheet.outline(sheet.rectangle(BLOCK_LEFT, BLOCK_TOP, RIGHT, BOTTOM), sheet.FRAME)
     for row, cells in enumerate(rows):
         left, top = BLOCK_LEFT, BLOCK_TOP + row * ROW_HEIGHT
         for width, caption, value, height in cells:
-            items += outline(rectangle(left, top, left + width, top + ROW_HEIGHT), THIN)
-            room = width - 3.0
-            items.append(Lettering((left + 1.5, top + 2.9), truncated(caption, room, 1.8), 1.8))
-            items.append(Lettering((left + 1.5, top + 7.5), truncated(value, room, height), height))
+            cell = sheet.rectangle(left, top, left + width, top + ROW_HEIGHT)
+            items += sheet.outline(cell, sheet.THIN)
+            for text, size, down in ((caption, 1.8, 2.9), (value, height, 7.5)):
+                shown = sheet.truncated(text, width - 3.0, size)
+                items.append(Lettering((left + 1.5, top + down), shown, size))
             left += width
     # A truncated cone in first-angle projection: its side, and to the right its small end.
     x, y = BLOCK_LEFT + 167.0, BLOCK_TOP + 4.5
     cone = ((x - 9.0, y - 1.5), (x - 2.0, y - 3.0), (x - 2.0, y + 3.0), (x - 9.0, y + 1.5))
     return [
         *items,
-        *outline(cone),
+        *sheet.outline(cone),
         Circle((x + 5.0, y), 3.0),
         Circle((x + 5.0, y), 1.5),
-        Line((x - 10.0, y), (x + 9.0, y), CENTRE),
-        Line((x + 5.0, y - 4.0), (x + 5.0, y + 4.0), CENTRE),
+        Line((x - 10.0, y), (x + 9.0, y), sheet.CENTRE),
+        Line((x + 5.0, y - 4.0), (x + 5.0, y + 4.0), sheet.CENTRE),
     ]
 
 
@@ -200,20 +182,20 @@ def _numbered(sentences: Sequence[str], blocks_top: float) -> list[Item]:
     sheet. If they would leave the frame, the line spacing is reduced, and the lettering before
     lines would touch.
     """
-    height, leading = NOTE_HEIGHT, LEADING
+    height, leading = NOTE_HEIGHT, sheet.LEADING
     while True:
         items: list[Item] = []
         y, left = NOTES_TOP, NOTES_LEFT + NUMBER_WIDTH
         for number, sentence in enumerate(sentences, start=1):
             items.append(Lettering((NOTES_LEFT, y), f"{number}", height))
-            lines = wrapped(sentence, RIGHT - left - 2.0, height)
+            lines = sheet.wrapped(sentence, RIGHT - left - 2.0, height)
             if y + (len(lines) - 1) * leading + 2.0 > blocks_top:
-                lines = wrapped(sentence, BLOCK_LEFT - left - 2.0, height)
+                lines = sheet.wrapped(sentence, BLOCK_LEFT - left - 2.0, height)
             for line in lines:
                 items.append(Lettering((left, y), line.replace("~", " "), height))
                 y += leading
-        if y - leading + 2.0 < FRAME_BOX[3]:
+        if y - leading + 2.0 < sheet.FRAME_BOX[3]:
             return items
         leading *= 0.95
         if height == NOTE_HEIGHT and leading < TIGHTEST_LEADING * height:
-            height, leading = SMALL_NOTE_HEIGHT, LEADING * SMALL_NOTE_HEIGHT / NOTE_HEIGHT
+            height, leading = SMALL_NOTE_HEIGHT, sheet.LEADING * SMALL_NOTE_HEIGHT / NOTE_HEIGHT

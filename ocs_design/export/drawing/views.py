@@ -5,29 +5,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from ocs_design.export.drawing.sheet import (
-    CENTRE,
-    MARGIN,
-    MARGIN_LEFT,
-    OUTLINE,
-    WIDTH,
-    Anchor,
-    Circle,
-    Item,
-    Lettering,
-    Line,
-    Point,
-    Scale,
-    extension_line,
-    fits_inside,
-    hatching,
-    horizontal_dimension,
-    largest_scale,
-    leader,
-    outline,
-    vertical_dimension,
-    viewing_arrow,
-)
+from ocs_design.export.drawing import sheet
+from ocs_design.export.drawing.sheet import Anchor, Circle, Item, Lettering, Line, Point, Scale
 from ocs_design.export.drawing.wheel import (
     WEB_GRADE,
     diameters,
@@ -49,7 +28,7 @@ MAX_VIEW_HEIGHT = 98.0
 DIAMETER_SPACE, WIDTH_SPACE, LEADER_SPACE = 33.0, 36.0, 51.0
 """Space for the diameters, for the widths, and for the leaders [mm]."""
 
-_ROOM = WIDTH - MARGIN_LEFT - MARGIN - DIAMETER_SPACE - WIDTH_SPACE - LEADER_SPACE
+_ROOM = sheet.WIDTH - sheet.MARGIN_LEFT - sheet.MARGIN - DIAMETER_SPACE - WIDTH_SPACE - LEADER_SPACE
 
 FIRST_COLUMN, COLUMN = 9.0, 8.0
 """Distance of the first diameter from the section's outline, and between diameters [mm]."""
@@ -102,10 +81,10 @@ class SheetLayout:
 def lay_out(wheel: Wheel) -> SheetLayout:
     """Place both views side by side, centred in the available space."""
     diameter, width = 2.0 * wheel.rim.outer_radius, wheel.width
-    scale = largest_scale((diameter, MAX_VIEW_HEIGHT), (diameter + width, _ROOM))
+    scale = sheet.largest_scale((diameter, MAX_VIEW_HEIGHT), (diameter + width, _ROOM))
     diameter_on_paper, width_on_paper = scale(diameter), scale(width)
     spare = max(0.0, _ROOM - diameter_on_paper - width_on_paper)
-    start = MARGIN_LEFT + DIAMETER_SPACE + spare / 2.0
+    start = sheet.MARGIN_LEFT + DIAMETER_SPACE + spare / 2.0
     section = start + width_on_paper / 2.0
     front = start + width_on_paper + WIDTH_SPACE + diameter_on_paper / 2.0
     return SheetLayout(scale, (section, AXIS_Y), (front, AXIS_Y))
@@ -116,38 +95,44 @@ def section_view(wheel: Wheel, layout: SheetLayout) -> list[Item]:
     (x, y), scale, rim = layout.section, layout.scale, wheel.rim
     half, edge = scale(wheel.width) / 2.0, scale(rim.outer_radius)
     items: list[Item] = []
+
+    def across(label: str, width: float, y: float, start: float | None = None) -> Iterator[Item]:
+        """One width, with extension lines from `start` if the outline does not reach it."""
+        ends = x - scale(width) / 2.0, x + scale(width) / 2.0
+        text_x = ends[1] + PAST_ARROWS
+        if start is not None:
+            yield from (sheet.extension_line(end, start, y) for end in ends)
+        if start is None or width < wheel.width:
+            # Clear of the outline.
+            text_x = max(text_x, x + half + TEXT_ASIDE)
+        yield from sheet.horizontal_dimension(
+            label, left=ends[0], right=ends[1], y=y, text_x=text_x
+        )
+
     for side in (_ABOVE, _BELOW):
         for profile, mirrored in cut_faces(wheel, above=side == _ABOVE):
             corners = _on_sheet(profile, layout, side)
-            items += [*outline(corners), *hatching(corners, mirrored=mirrored)]
+            items += [*sheet.outline(corners), *sheet.hatching(corners, mirrored=mirrored)]
     items += _edges_behind(wheel, layout)
-    items.append(Line((x - half - 4.0, y), (x + half + 4.0, y), CENTRE))
+    items.append(Line((x - half - 4.0, y), (x + half + 4.0, y), sheet.CENTRE))
     for ring, width, side in _cut_rings(wheel):
         half_length = width + scale.length(2.0)
         along = [(z, ring.circle_radius) for z in (-half_length, half_length)]
         start, end = _on_sheet(along, layout, side)
-        items.append(Line(start, end, CENTRE))
+        items.append(Line(start, end, sheet.CENTRE))
     # Diameters that have space for their text, side by side, the smallest next to the outline.
-    left = x - half - FIRST_COLUMN
-    dimensioned = (
-        (label, radius, width)
-        for label, radius, width in diameters(wheel)
-        if fits_inside(label, 2.0 * scale(radius))
-    )
-    for column, (label, radius, width) in enumerate(dimensioned):
-        items += vertical_dimension(
-            label,
-            x=left - COLUMN * column,
-            middle=y,
-            half=scale(radius),
-            outline_x=x - scale(width) / 2.0,
-        )
+    column = x - half - FIRST_COLUMN
+    for label, radius, width in diameters(wheel):
+        long, outline_x = scale(radius), x - scale(width) / 2.0
+        if sheet.fits_inside(label, 2.0 * long):
+            items += sheet.vertical_dimension(
+                label, x=column, middle=y, half=long, outline_x=outline_x
+            )
+            column -= COLUMN
     # Width of the rim above the view; widths of web and hub on either side of the axis, where the
     # web is uncut: in the wider of its parts inside and outside its holes.
     label, top = toleranced(rim.height, Grade.IT11), y - edge
-    items += _width_dimension(
-        label, rim.height, wheel, layout, y=top - RIM_WIDTH_DISTANCE, start=top
-    )
+    items += across(label, rim.height, top - RIM_WIDTH_DISTANCE, top)
     web = wheel.web
     if web is not None:
         hub, holes = web.hub, web.holes
@@ -157,16 +142,8 @@ def section_view(wheel: Wheel, layout: SheetLayout) -> list[Item]:
         elif holes is not None:
             inside = holes.reach
         distance = max(MIN_AXIS_DISTANCE, scale(inside + outside) / 2.0)
-        web_width = toleranced(web.thickness, WEB_GRADE)
-        items += _width_dimension(web_width, web.thickness, wheel, layout, y=y - distance)
-        items += _width_dimension(
-            in_mm(hub.height),
-            hub.height,
-            wheel,
-            layout,
-            y=y + distance,
-            start=y + scale(hub.radius),
-        )
+        items += across(toleranced(web.thickness, WEB_GRADE), web.thickness, y - distance)
+        items += across(in_mm(hub.height), hub.height, y + distance, y + scale(hub.radius))
     # The size of the rim's chamfers, below the view, if it is large enough to be written.
     chamfer = in_mm(rim.chamfer)
     if float(chamfer) > 0.0:
@@ -174,7 +151,7 @@ def section_view(wheel: Wheel, layout: SheetLayout) -> list[Item]:
         middle = (rim.height / 2.0 - aside, rim.outer_radius - aside)
         (corner,) = _on_sheet([middle], layout, _BELOW)
         shelf = (corner[0] + CHAMFER_ASIDE, y + edge + CHAMFER_BELOW)
-        items += leader([f"{chamfer} × 45°"], corner, 0.0, shelf)
+        items += sheet.leader([f"{chamfer} × 45°"], corner, 0.0, shelf)
     return [*items, Lettering((x, y - edge - RIM_WIDTH_DISTANCE - 7.0), "A–A", 5.0, Anchor.MIDDLE)]
 
 
@@ -201,7 +178,7 @@ def _edges_behind(wheel: Wheel, layout: SheetLayout) -> Iterator[Item]:
     for distance, low, high in spans:
         for z in (-distance, distance):
             start, end = _on_sheet([(z, low), (z, high)], layout, _BELOW)
-            yield Line(start, end, OUTLINE)
+            yield Line(start, end, sheet.OUTLINE)
 
 
 def _cut_rings(wheel: Wheel) -> Iterator[tuple[HoleRing, float, float]]:
@@ -214,26 +191,6 @@ def _cut_rings(wheel: Wheel) -> Iterator[tuple[HoleRing, float, float]]:
         for side in (_ABOVE, _BELOW):
             if is_cut(ring, above=side == _ABOVE):
                 yield ring, width, side
-
-
-def _width_dimension(
-    label: str,
-    width: float,
-    wheel: Wheel,
-    layout: SheetLayout,
-    *,
-    y: float,
-    start: float | None = None,
-) -> Iterator[Item]:
-    """One width dimension, with extension lines from `start` if the outline does not reach it."""
-    x, half = layout.section[0], layout.scale(width) / 2.0
-    if start is not None:
-        yield from (extension_line(x + side * half, start, y) for side in (-1.0, 1.0))
-    text_x = x + half + PAST_ARROWS
-    if start is None or width < wheel.width:
-        # Clear of the outline.
-        text_x = max(text_x, x + layout.scale(wheel.width) / 2.0 + TEXT_ASIDE)
-    yield from horizontal_dimension(label, left=x - half, right=x + half, y=y, text_x=text_x)
 
 
 def cut_faces(wheel: Wheel, *, above: bool) -> Iterator[tuple[Profile, bool]]:
@@ -301,6 +258,7 @@ def front_view(wheel: Wheel, layout: SheetLayout) -> list[Item]:
     """Wheel seen along its axis: circles, centre lines, the cutting plane, and leaders."""
     (x, y), scale, rim, web = layout.front, layout.scale, wheel.rim, wheel.web
     edge, chamfer = scale(rim.outer_radius), rim.chamfer
+    beyond = edge + _CENTRE_LINE_OVERHANG
     radii = [rim.outer_radius, rim.inner_radius]
     if scale(chamfer) >= MIN_LINE_DISTANCE:
         radii += [rim.outer_radius - chamfer, rim.inner_radius + chamfer]
@@ -309,21 +267,19 @@ def front_view(wheel: Wheel, layout: SheetLayout) -> list[Item]:
     items: list[Item] = [Circle((x, y), scale(radius)) for radius in radii if radius > 0.0]
     for ring in filter(None, _rings(wheel)):
         # The centre of each hole is marked across the pitch circle.
-        radius, mark = scale(ring.circle_radius), scale(ring.hole_radius) + 1.0
-        items.append(Circle((x, y), radius, CENTRE))
+        radius, hole = scale(ring.circle_radius), scale(ring.hole_radius)
+        near, far = radius - (hole + 1.0), radius + (hole + 1.0)
+        items.append(Circle((x, y), radius, sheet.CENTRE))
         for angle in hole_angles(ring):
             u, v = math.cos(angle), -math.sin(angle)
-            items.append(
-                Circle(_hole_position(ring, angle, layout), scale(ring.hole_radius), OUTLINE)
-            )
-            start = (x + (radius - mark) * u, y + (radius - mark) * v)
-            items.append(Line(start, (x + (radius + mark) * u, y + (radius + mark) * v)))
+            items.append(Circle(_hole_position(ring, angle, layout), hole, sheet.OUTLINE))
+            items.append(Line((x + near * u, y + near * v), (x + far * u, y + far * v)))
     return [
         *items,
-        Line((x - edge - _CENTRE_LINE_OVERHANG, y), (x + edge + _CENTRE_LINE_OVERHANG, y), CENTRE),
-        Line((x, y - edge - _CENTRE_LINE_OVERHANG), (x, y + edge + _CENTRE_LINE_OVERHANG), CENTRE),
-        *viewing_arrow(x=x, edge=y - edge, down=False),
-        *viewing_arrow(x=x, edge=y + edge, down=True),
+        Line((x - beyond, y), (x + beyond, y), sheet.CENTRE),
+        Line((x, y - beyond), (x, y + beyond), sheet.CENTRE),
+        *sheet.viewing_arrow(x=x, edge=y - edge, down=False),
+        *sheet.viewing_arrow(x=x, edge=y + edge, down=True),
         *_leaders(wheel, layout),
     ]
 
@@ -356,7 +312,7 @@ def _leaders(wheel: Wheel, layout: SheetLayout) -> Iterator[Item]:
         callouts.append((bore, layout.scale(hub.bore_radius)))
     for label, radius, _ in diameters(wheel):
         on_paper = layout.scale(radius)
-        if not fits_inside(label, 2.0 * on_paper):
+        if not sheet.fits_inside(label, 2.0 * on_paper):
             callouts.append((label, on_paper))
     direction = BORE_LEADERS[0]
     if hub is not None and hub.bolt_ring is not None:
@@ -367,7 +323,9 @@ def _leaders(wheel: Wheel, layout: SheetLayout) -> Iterator[Item]:
         )
     first = (edge + LEADER_SHELF) * math.tan(direction)
     for row, (label, radius) in enumerate(callouts):
-        yield from leader([label], layout.front, radius, (shelf, y - first - LEADER_ROW * row))
+        yield from sheet.leader(
+            [label], layout.front, radius, (shelf, y - first - LEADER_ROW * row)
+        )
     depths = math.inf, math.inf, wheel.rim.cuts.hole_depth
     for ring, depth, below, target in zip(
         _rings(wheel), depths, HOLE_ROWS, HOLE_LEADERS, strict=True
@@ -377,4 +335,4 @@ def _leaders(wheel: Wheel, layout: SheetLayout) -> Iterator[Item]:
             nearness = [math.cos(hole - target) for hole in angles]
             angle = angles[nearness.index(max(nearness))]
             center, radius = _hole_position(ring, angle, layout), layout.scale(ring.hole_radius)
-            yield from leader(hole_label(ring, depth), center, radius, (shelf, y + below))
+            yield from sheet.leader(hole_label(ring, depth), center, radius, (shelf, y + below))

@@ -94,12 +94,9 @@ def inside_corners(wheel: Wheel) -> tuple[float, float]:
     steps = [(height - web.thickness) / 2.0 for height, _, _ in sides]
     radius = min([INSIDE_CORNER, *(step for step in steps if step > 0.0)])
     area, centroid = (1.0 - pi / 4.0) * radius**2, (10.0 - 3.0 * pi) / (12.0 - 3.0 * pi) * radius
-    rings = [
-        corner_radius + outward * centroid
-        for (_, corner_radius, outward), step in zip(sides, steps, strict=True)
-        if step > 0
-    ]
-    added = sum(2.0 * web.density * area * 2.0 * pi * corner_radius**3 for corner_radius in rings)
+    cornered = (side for side, step in zip(sides, steps, strict=True) if step > 0.0)
+    rings = [at + outward * centroid for _, at, outward in cornered]
+    added = sum(2.0 * web.density * area * 2.0 * pi * ring**3 for ring in rings)
     return (radius if rings else 0.0), added / float(total(wheel_parts(wheel)).inertia[2, 2])
 
 
@@ -212,23 +209,21 @@ def diameters(wheel: Wheel) -> Iterator[tuple[str, float, float]]:
 
     Yields the label, the radius [m], and the extent along the axis there [m].
     """
+    rim = wheel.rim
     if wheel.web is not None:
         hub = wheel.web.hub
         yield diameter_label(hub.radius), hub.radius, hub.height
-    if wheel.rim.inner_radius > 0.0:
-        yield bore_diameter_label(wheel), wheel.rim.inner_radius, wheel.rim.height
-    yield rim_diameter_label(wheel), wheel.rim.outer_radius, wheel.rim.height
+    if rim.inner_radius > 0.0:
+        yield bore_diameter_label(wheel), rim.inner_radius, rim.height
+    yield rim_diameter_label(wheel), rim.outer_radius, rim.height
 
 
 def hole_label(ring: HoleRing, depth: float) -> tuple[str, ...]:
     """Label of a ring of holes of this depth [m], line by line; inf: through."""
     count = "" if ring.count == 1 else f"{ring.count} × "
-    size, place = (
-        f"{count}{diameter_label(ring.hole_radius)}",
-        f"on {diameter_label(ring.circle_radius)} ±0.1",
-    )
-    if ring.count > 1:
-        place = f"evenly {place}"
+    size = f"{count}{diameter_label(ring.hole_radius)}"
+    evenly = "evenly on" if ring.count > 1 else "on"
+    place = f"{evenly} {diameter_label(ring.circle_radius)} ±0.1"
     if isinf(depth):
         return f"{size} through", place
     return size, place, f"{in_mm(depth)} deep, both faces"

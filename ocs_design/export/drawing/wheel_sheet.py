@@ -10,16 +10,10 @@ from ocs_design.common.units import significant
 from ocs_design.device import joints
 from ocs_design.device.device import Device
 from ocs_design.device.joints import rim_fit
+from ocs_design.export.drawing import sheet
 from ocs_design.export.drawing.guard_sheet import guard_sheet
 from ocs_design.export.drawing.plate_sheet import plate_sheets
-from ocs_design.export.drawing.sheet import (
-    THIN,
-    Item,
-    Lettering,
-    outline,
-    rectangle,
-    truncated,
-)
+from ocs_design.export.drawing.sheet import Item, Lettering
 from ocs_design.export.drawing.title_block import (
     BLOCK_LEFT,
     BLOCK_TOP,
@@ -102,18 +96,15 @@ def wheel_drawing(device: Device, robot: str, refused: str = "") -> WheelDrawing
 def wheel_sheet(drawing: WheelDrawing) -> list[Item]:
     """Section and front view in first-angle projection, notes, list of parts and title block."""
     layout, wheel = lay_out(drawing.wheel), drawing.wheel
-    fine = "all fits" if wheel.shrunk_on else "bore"
+    fine, material = "bore", wheel.rim.material
+    if wheel.shrunk_on:
+        fine, material = "all fits", "see list of parts"
     inertia = f"{significant(1e6 * drawing.mass_properties.inertia[2, 2], 4)} kg mm²"
-    entries = Entries(
-        title_of("OCS flywheel", drawing.count),
-        drawing.robot,
-        layout.scale,
-        "see list of parts" if wheel.shrunk_on else wheel.rim.material,
-        sum(drawing.masses),
-        ("Spin inertia about the axis", inertia),
-        f"Ra 3.2, {fine} Ra {1e6 * SEAT_ROUGHNESS:g} (ISO 21920)",
-        drawing.identity,
-    )
+    figure = "Spin inertia about the axis", inertia
+    texture = f"Ra 3.2, {fine} Ra {1e6 * SEAT_ROUGHNESS:g} (ISO 21920)"
+    figures = material, sum(drawing.masses), figure, texture, drawing.identity
+    title = title_of("OCS flywheel", drawing.count)
+    entries = Entries(title, drawing.robot, layout.scale, *figures)
     views = [*section_view(wheel, layout), *front_view(wheel, layout)]
     parts = parts_list(drawing)
     return complete_sheet(views, notes(drawing), entries, drawing.refused, parts=parts)
@@ -136,10 +127,9 @@ def parts_list(drawing: WheelDrawing) -> list[Item]:
         top = BLOCK_TOP - row * PARTS_ROW
         for value, start, end in zip(values, _PARTS_COLUMNS, _PARTS_COLUMNS[1:], strict=False):
             left, right = BLOCK_LEFT + start, BLOCK_LEFT + end
-            items += outline(rectangle(left, top, right, top + PARTS_ROW), THIN)
-            items.append(
-                Lettering((left + 1.5, top + 4.0), truncated(value, right - left - 3.0, 2.5))
-            )
+            items += sheet.outline(sheet.rectangle(left, top, right, top + PARTS_ROW), sheet.THIN)
+            shown = sheet.truncated(value, right - left - 3.0, 2.5)
+            items.append(Lettering((left + 1.5, top + 4.0), shown))
     return items
 
 
