@@ -14,6 +14,7 @@ from ocs_design.requirement.froude import FroudeScale, default_maneuvers
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.robot.mass import MassProperties, combine
 from ocs_design.robot.robot import Robot
+from ocs_design.sizing.footing.standing import footing_under, standing_on
 
 # Table 2 of the paper; its h of 10.2 mm contradicts its own mass and inertia.
 PAPER_WHEEL = Flywheel(
@@ -33,6 +34,14 @@ PAPER_WHEEL = Flywheel(
     stress_margin=None,
     stored_energy=0.0,
 )
+
+
+def stand_on_trunk(
+    device: Device, robot: Robot, *, specified: bool, formed: bool = False
+) -> Device:
+    """The device on its footing; as it is where there is none."""
+    footing = footing_under(device, robot, specified=specified, formed=formed)
+    return device if footing is None else standing_on(device, footing)
 
 
 def paper_maneuvers(robot: Robot) -> tuple[Maneuver, ...]:

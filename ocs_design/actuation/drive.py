@@ -175,11 +175,8 @@ def _sense(gear: Gear) -> float:
 def power_less_friction(supply: Supply, motors: int, motor: AnyMotor, peak_current: float) -> float:
     """Least power of a supply that remains after the motors' friction [W].
 
-    (R (i + I_0) + k_t w) (i + I_0) exceeds (R i + k_t w) i by at most I_0 (V + R (i + I_0)).
-
-    Args:
-        supply: of all motors. motors: number of motors.
-        motor: each of them. peak_current: through its winding [A]; inf: unknown.
+    (R (i + I_0) + k_t w) (i + I_0) exceeds (R i + k_t w) i by at most I_0 (V + R (i + I_0)). A
+    motor's `peak_current` is that through its winding [A]; inf: unknown.
     """
     friction, drop = motor.no_load_current or 0.0, 0.0
     if np.isfinite(peak_current) and motor.resistance is not None:
@@ -244,10 +241,8 @@ class Drive(AnyMotor):
     ) -> "Drive":
         """The motor with its gear at `bus_voltage` [V].
 
-        Fields that `Motor` has too are copied by name, unless gear or supply change them.
-
-        Args:
-            line: usable voltage line at the wheel; None: the full line of motor and gear.
+        Fields that `Motor` has too are copied by name, unless gear or supply change them. `line`:
+        usable voltage line at the wheel; None: the full line of motor and gear.
 
         Raises:
             OcsError: the motor lacks a required figure.

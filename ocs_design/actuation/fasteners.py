@@ -36,10 +36,8 @@ class Screw:
     def length_through(self, thickness: float, depth: float = 1.0) -> float:
         """Standard length for parts of that thickness and a thread behind them [m].
 
-        Args:
-            thickness: of the parts [m].
-            depth: least thread engagement in diameters: 1 suffices in aluminium and steel,
-                `IN_PLASTIC` in a printed part.
+        `depth`: least thread engagement in diameters: 1 suffices in aluminium and steel,
+        `IN_PLASTIC` in a printed part.
         """
         least = 1e3 * (thickness + depth * self.diameter)
         long_enough = (length for length in LENGTHS if length >= least - 1e-9)
@@ -109,10 +107,7 @@ class Screw:
     def slot_area(self, across: float) -> float:
         """Bearing area of a head or washer over a slot as wide as a clearance hole [m^2].
 
-        It is the disc of the head less the strip of the slot.
-
-        Args:
-            across: diameter of the head or washer [m].
+        It is the disc of the head, of diameter `across` [m], less the strip of the slot.
         """
         radius, half = across / 2.0, self.clearance_hole / 2.0
         strip = 2.0 * (half * sqrt(radius**2 - half**2) + radius**2 * asin(half / radius))

@@ -363,11 +363,8 @@ def estimated_rotor_inertia(
 ) -> tuple[float | None, str]:
     """Least rotor inertia of a motor of that kind, mass [kg] and diameter [m], and its basis.
 
-    The least, `INERTIA_SHARE` m D^2, is conservative where the rotor turns with the wheel: the
-    wheel makes up for the rest.
-
-    Returns:
-        The inertia [kg m^2] and a text that names the estimate; None and an empty text if unknown.
+    The least, `INERTIA_SHARE` m D^2 [kg m^2], is conservative where the rotor turns with the wheel:
+    the wheel makes up for the rest. The text names the estimate; None and empty if unknown.
     """
     share = None if kind is None else INERTIA_SHARE.get(kind)
     if share is None or mass is None or diameter is None:
@@ -402,11 +399,8 @@ def estimated_continuous_torque(
 ) -> tuple[float | None, str]:
     """Torque whose heat a motor's own surface can dissipate [N m], and its basis.
 
-    `R (1 + a dT) i^2 = h A dT` with the surface A of its body: a cylinder and both ends.
-
-    Args:
-        torque_constant: [N m/A]. resistance: line to line, cold [ohm].
-        diameter, length: of its body [m].
+    `R (1 + a dT) i^2 = h A dT` with the surface A of its body: a cylinder and both ends. The
+    resistance is line to line, cold.
     """
     if torque_constant is None or resistance is None or diameter is None or length is None:
         return None, ""

@@ -84,13 +84,7 @@ def capability(demand: SweepDemand, spin_inertia: FloatArray) -> Capability:
 def newton_step(
     demand: SweepDemand, spin_inertia: FloatArray, capability_there: Capability
 ) -> FloatArray:
-    """Newton step of 1/M over 1/h [kg m^2]; inf where it would go beyond every h.
-
-    Args:
-        demand: to be met.
-        spin_inertia: h where it is tried [kg m^2].
-        capability_there: what wheels of that spin inertia do.
-    """
+    """Newton step of 1/M over 1/h [kg m^2]; inf where it would go beyond every h."""
     # Where nothing is to be swept, the lack is minus infinity, and the step leads to zero.
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         missing = capability_there.sweep * (1.0 - capability_there.sweep / demand.sweep)

@@ -72,8 +72,7 @@ class TiltInertia(NamedTuple):
     def drifts_off_level(self, tilt_per_drift: float) -> NDArray[np.bool_]:
         """Whether a turn ends off level about an uncontrolled axis, shape (..., 2).
 
-        Args:
-            tilt_per_drift: angle off level at the end, per unit of drift [rad].
+        `tilt_per_drift`: angle off level at the end, per unit of drift [rad].
         """
         return np.asarray(self.drift * tilt_per_drift > DRIFT_MAX)
 
@@ -84,9 +83,7 @@ class TiltInertia(NamedTuple):
         other one is reduced by J_xy^2 over it. Where a turn `drifts_off_level`, the coupling stays:
         it requires momentum that these wheels cannot absorb.
 
-        Args:
-            shares: components of a wheel's axis about roll and pitch, shape (..., 2).
-            tilt_per_drift: angle off level at a turn's end, per unit of drift [rad].
+        `shares`: components of a wheel's axis about roll and pitch, shape (..., 2).
         """
         uncontrolled = shares <= OUT_OF_REACH
         if not uncontrolled.any():

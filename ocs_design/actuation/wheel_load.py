@@ -121,8 +121,7 @@ def without_each(axes: FloatArray) -> tuple[FloatArray, ...]:
 def reach(axes: FloatArray) -> FloatArray:
     """Largest momentum about roll, pitch and yaw, each alone, relative to one wheel's, shape (3,).
 
-    Args:
-        axes: of the wheels as columns, shape (3, n).
+    The wheels' axes are columns, shape (3, n).
     """
     return np.asarray(1.0 / gauge(axes, np.eye(3)).busiest)
 
@@ -135,11 +134,8 @@ def reach_without_one(axes: FloatArray) -> FloatArray:
 def momentum_of_each(axes: FloatArray, momentum: FloatArray) -> FloatArray:
     """Momentum of each wheel with least effort of the busiest, shape (..., n).
 
-    Wheels that are not among the busiest are parallel, and share the rest.
-
-    Args:
-        axes: about roll and pitch, spanning the momentum, shape (..., 2, n).
-        momentum: shape (..., 2).
+    Wheels that are not among the busiest are parallel, and share the rest. The axes, shape (..., 2,
+    n), are those about roll and pitch and span the momentum, shape (..., 2).
     """
     busiest, sense = gauge(axes, momentum)
     of_busiest = sense * busiest[..., None]
@@ -377,12 +373,8 @@ def smallest_spin_inertia(
     they turn and the search ends. Only a negative armature (a gear that speeds the wheel up) can
     make the time rise again temporarily, or a wheel that turns against the turn at the start: a
     smaller one gets away from that speed, at which it has less torque on the way back. A larger h,
-    required by another turn, must then be checked again, as `least` of `spin_demand`.
-
-    Args:
-        task: its inertia is fixed, independent of h.
-        line: of the drive at the wheel, shape (...).
-        armature: I_m - h [kg m^2], shape (...).
+    required by another turn, must then be checked again, as `least` of `spin_demand`. The task's
+    inertia is fixed, independent of h; `armature`: I_m - h [kg m^2], shape (...).
     """
     return smallest_root(spin_demand(task, line, armature))
 

@@ -141,9 +141,8 @@ def advice_on(
     """The refusal, with the single changes that would do.
 
     Args:
-        refused: problem that no motor can solve, and why.
-        progress: called with the fraction done. default: whether the maneuvers are the defaults.
-            lightest: whether the lightest incidence, not tried yet, may be the cure.
+        default: whether the maneuvers are the defaults.
+        lightest: whether the lightest incidence, not tried yet, may be the cure.
     """
     reason, problem = refused.nearest.reason, refused.problem
     changes: dict[Limit, float] = {}
@@ -342,14 +341,8 @@ def needed_motor(problem: SelectionProblem, model: Motor) -> NeededMotor | None:
 
     Torque and mass scale with the cube of a motor's dimensions. Its speed is that at which the
     largest wheel has the required momentum, or somewhat more where that allows a much weaker motor.
-
-    Args:
-        problem: problem that no motor solves. Where its incidence is free, the motor is for the one
-            that requires the least torque.
-        model: a motor whose figures are known.
-
-    Returns:
-        The motor; None: no such motor would do, no time is set, or the wheels are not in pairs.
+    Where the incidence is free, the motor is for the one that requires the least torque. None: no
+    such motor would do, no time is set, or the wheels are not in pairs.
     """
     if not problem.layout.pairs or not (model.mass and model.peak_torque):
         return None

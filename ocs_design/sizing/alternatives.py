@@ -51,13 +51,9 @@ def start_alternatives(
 ) -> Callable[[], tuple[tuple[Alternative, ...], DrivingManeuver | None]]:
     """Start computing what each change would save, and which maneuver drives the mass.
 
-    Args:
-        task: the design task; what its specification already states is not offered again.
-        choice: the device, and what it was chosen from; None: it has no motor.
-        call: starts a call and returns the function that waits for its answer, like `Beside.call`.
-
-    Returns:
-        Function that waits for the answers; both are empty without a motor.
+    What the task's specification already states is not offered again. `call` starts a call and
+    returns the function that waits for its answer, like `Beside.call`; the result is such a
+    function too. Both answers are empty without a motor.
     """
     if choice is None:
         return lambda: ((), None)
@@ -287,10 +283,8 @@ def lighter_by(
 
     Args:
         mass: mass to save [kg].
-        task: task that the device was designed for. choice: the device, and what it was chosen
-            from.
+        choice: the device, designed for the task, and what it was chosen from.
         driving_maneuver: maneuver that drives the mass, which may be relaxed alone; empty: none.
-        progress: called with the fraction done.
     """
     target = choice.chosen.mass - mass
     if target <= 0.0:

@@ -89,9 +89,7 @@ def buildable(
         motor: the chosen motor; None: none was chosen, and the answer is unknown.
         mounting: on the robot. Where the robot's shapes are unknown, so is whether it holds, and
             with it the answer, unless something else keeps the device from being built.
-        margins: of the device.
-        joints: of a module.
-        robot: robot that carries the device; None: no meshes can be missing.
+        robot: that carries the device; None: no meshes can be missing.
     """
     if motor is None:
         return Buildable(yes=None)

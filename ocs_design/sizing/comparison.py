@@ -26,12 +26,7 @@ def draw_front(
     choose: Choose,
     progress: Progress = ignore_progress,
 ) -> Front:
-    """Front of the lightest device at each value, or the reason why there is none.
-
-    Args:
-        sweep: the varied figure. values: its values [SI].
-        progress: called with the fraction done.
-    """
+    """Front of the lightest device at each value [SI], or the reason why there is none."""
     points = []
     for index, value in enumerate(values):
         specification = with_absolute_files(sweep.at(value, task))

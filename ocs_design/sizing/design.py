@@ -55,7 +55,6 @@ def design_device(
     converge, the result is the lightest device that was sized for kicks no smaller than its own.
 
     Args:
-        task: the requirement and the robot.
         ranked: whether heavier devices are ranked too, which takes longer.
         reserve: reserve for sampled errors; None: that of the specified reliability.
         near: device to start from, whose motor, gear and material are kept; None: all parts on
@@ -276,12 +275,7 @@ REDUNDANT_LAYOUTS = ("triad", *MORE_PAIRS[:1], PYRAMID)
 
 
 def layouts_that_survive(specification: Specification, robot: Robot, progress: Progress) -> str:
-    """Layouts that would survive a stopped drive, with their masses, for a layout that cannot.
-
-    Args:
-        specification: as given. robot: robot that carries the device.
-        progress: called with the fraction done.
-    """
+    """Layouts that would survive a stopped drive, with their masses, for a layout that cannot."""
     masses: dict[str, float] = {}
     refusals: list[str] = []
     for done, layout in enumerate(REDUNDANT_LAYOUTS):
@@ -310,8 +304,7 @@ def layouts_that_survive(specification: Specification, robot: Robot, progress: P
 def mass_without_survival(task: Task) -> float | None:
     """Mass of the lightest device that need not survive a stopped drive [kg]; None: there is none.
 
-    Args:
-        task: task whose device has to survive it.
+    The task's device has to survive it.
     """
     with suppress(Infeasible):
         free = task.with_requirement(replace(task.resolved.requirement, detection=None))

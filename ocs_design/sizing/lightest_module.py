@@ -86,8 +86,7 @@ def lightest_module(
 ) -> ModuleShape:
     """The lightest wheel of each spin inertia [kg m^2] with its shell; see the module's docstring.
 
-    Args:
-        digits: digits to which its radius and bore are found.
+    Its radius and bore are found to this many `digits`.
     """
     inertia = np.asarray(spin_inertia, dtype=np.float64)
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
@@ -269,9 +268,7 @@ _TOUCHING = 1e-5
 def binding_limits(shape: ModuleShape, limits: RimLimits, envelope: Envelope) -> tuple[str, ...]:
     """Names of the limits that are active for one module, as in the specification.
 
-    Args:
-        shape: of the module. limits: of its rim; both scalars.
-        envelope: as specified, without the changes for web and hub.
+    Shape and limits are scalars; `envelope` is as specified, without the changes for web and hub.
     """
     at, inner, outer = limits, float(shape.inner_radius), float(shape.outer_radius)
     height = float(shape.height)

@@ -113,9 +113,7 @@ def narrowed(
 ) -> tuple[float, float]:
     """Bisection on a logarithmic scale: a value that fails and one, slightly larger, that succeeds.
 
-    Args:
-        succeeds: whether a value succeeds. low: a value that fails. high: one that succeeds.
-        precision: largest relative difference of the result's two values.
+    `low` fails and `high` succeeds; `precision`: largest relative difference of the result's two.
     """
     while high > (1.0 + precision) * low:
         middle = sqrt(low * high)
@@ -176,12 +174,8 @@ def smallest_factor(
     """The smallest factor on a limit that makes the design feasible; None: there is none.
 
     Growing steps outwards until one succeeds, then bisection of the last one: loosening a limit too
-    far may fail where a smaller change succeeds, since a larger wheel also loads the robot.
-
-    Args:
-        helps: whether a design is feasible with a factor.
-        start: factor of at least 1 that fails. largest: largest factor to try.
-        precision: relative precision of the result.
+    far may fail where a smaller change succeeds, since a larger wheel also loads the robot. `start`
+    is a factor of at least 1 that fails.
     """
     low, step = start, 1.0 + precision
     while low < largest:
@@ -193,12 +187,7 @@ def smallest_factor(
 
 
 def advice(changes: Sequence[str], otherwise: str) -> str:
-    """Sentence on the single changes that would do.
-
-    Args:
-        changes: a text of each.
-        otherwise: advice where there is none.
-    """
+    """Sentence on the single changes that would do; `otherwise`: advice where there is none."""
     if not changes:
         return f"No single change within reason would do: {otherwise}"
     which = "Any one of these" if len(changes) > 1 else "This"

@@ -90,9 +90,7 @@ class SampledMotion:
 def integral(values: FloatArray, time: FloatArray) -> float:
     """Simpson's rule over intervals with midpoints: exact for functions quadratic in each.
 
-    Args:
-        values: shape (2 n - 1,).
-        time: as from `SampledMotion.between`, shape (2 n - 1,).
+    Values and times are those of `SampledMotion.between`, shape (2 n - 1,).
     """
     step = time[2::2] - time[:-2:2]
     return float(step @ (values[:-2:2] + 4.0 * values[1::2] + values[2::2]) / 6.0)
@@ -227,10 +225,7 @@ def bearing_moment(motion: SampledMotion, axes: FloatArray, wheel: DrivenWheel) 
 
         M = I_t w_dot_perp + (I_s (a w) + h W - I_t (a w)) w x a .
 
-    Args:
-        motion: of trunk and wheels.
-        axes: unit spin axes in B as columns, shape (3, m).
-        wheel: each of them.
+    `axes`: unit spin axes in B as columns, shape (3, m).
     """
     moments = []
     for wheel_speed, axis in zip(motion.wheel_speed.T, axes.T, strict=True):
@@ -256,12 +251,9 @@ ALL_MOTORS = "all motors together, ideal inverter, friction included"
 
 
 def margins(motion: SampledMotion, axes: FloatArray, wheel: DrivenWheel) -> tuple[Margin, ...]:
-    """Margins of drive, rim, supply and bearings for one motion.
+    """Margins of drive, rim, supply and bearings for one motion, flown or planned.
 
-    Args:
-        motion: of trunk and wheels, flown or planned.
-        axes: unit spin axes in B in this motion, as columns, shape (3, m).
-        wheel: each of them.
+    `axes`: unit spin axes in B in this motion, as columns, shape (3, m).
     """
     margins_found = [
         *_drive_margins(motion, wheel),

@@ -220,10 +220,7 @@ def _root_from_above(
 ) -> FloatArray:
     """Root of a convex, increasing function by Newton's method; without a web, the start itself.
 
-    Args:
-        excess: the function and its slope.
-        start: not below the root.
-        web: see `RimLimits`.
+    `excess`: the function and its slope; `start`: not below the root.
     """
     root = np.asarray(start, dtype=np.float64)
     if np.all(np.asarray(web) == 0.0):

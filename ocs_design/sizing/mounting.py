@@ -196,13 +196,9 @@ def _collision(mounting: DeviceMounting) -> str:
 def mounting_of(
     robot: Robot, device: Device, maneuvers: Sequence[Maneuver], total: MassProperties
 ) -> DeviceMounting:
-    """How a device sits on its robot.
+    """How a device sits on its robot, also at the incidences that maneuvers have of their own.
 
-    Args:
-        robot: without the device.
-        device: as designed.
-        maneuvers: maneuvers, some of which may have an incidence of their own.
-        total: robot and device together, in B.
+    `total`: robot and device together, in B.
     """
     collision = collision_model(robot)
     turned = {
@@ -254,9 +250,6 @@ def placement_warnings(
     """Collisions at the modules' place, one sentence each; joint limits are not considered.
 
     Args:
-        mounting: of the device on the robot.
-        robot, device: see `mounting_of`.
-        envelope: limits of the rims.
         specified: whether the user chose the position.
         strict: whether collisions are errors.
 

@@ -121,10 +121,8 @@ class OnRobot:
         Every device has a plate of its own size: a smaller device has a lighter plate. The first is
         at its own incidence.
 
-        Args:
-            problem: the problem solved.
-            ranked: False skips devices that without a plate are already heavier than the lightest
-                with one.
+        `ranked`: False skips devices that without a plate are already heavier than the lightest
+        with one.
         """
         plated: list[Candidate] = []
         for entry in selection.ranking:
@@ -185,11 +183,7 @@ class OnRobot:
         selection is for those of its lightest device, then for those of the best drive alone, to
         convergence.
 
-        Args:
-            problem: to solve.
-            reality: sampled errors. reserve: for them, which is computed for the lightest device
-                without a reserve.
-            ranked: see `with_plates`.
+        The reserve is computed for the lightest device without one. `ranked`: see `with_plates`.
 
         Raises:
             Infeasible: see `select_by`; also where no device can carry the mast or plate that it
@@ -277,11 +271,8 @@ class OnRobot:
         """The selection with guard rings around the wheels of its best device, and its problem.
 
         All drives are ranked with rings of one wall thickness, then the lightest with rings that
-        contain its own wheels, until no other is lighter.
-
-        Args:
-            problem: without rings.
-            best: its lightest device, whose rings set the first wall thickness.
+        contain its own wheels, until no other is lighter. `best` is the lightest device without
+        rings; its rings set the first wall thickness.
 
         Raises:
             Infeasible: every device is too heavy with its rings.

@@ -98,9 +98,7 @@ class Place:
 def place_around(middle: Direction, layout: Layout, lateral_offset: float = 0.0) -> Place:
     """Upright modules around a point of the surface that they stand on, in B [m].
 
-    Args:
-        middle: that point. layout: of the modules.
-        lateral_offset: extra distance of each to its side, beyond what it needs [m].
+    `lateral_offset`: extra distance of each to its side, beyond what it needs [m].
     """
     x, y, z = middle
     outward = tuple(vector(direction) for direction in np.array(layout.ring) * SPACING)

@@ -90,12 +90,7 @@ class Reserve:
     def computed_for(
         self, errors: "SampledErrors", problem: SelectionProblem, device: Candidate
     ) -> "Reserve":
-        """The reserve computed for a device that does the nominal maneuvers.
-
-        Args:
-            errors: sampled errors.
-            problem: without a reserve. device: device that solves it.
-        """
+        """The reserve computed for a device that solves the problem without one."""
         if self.reliability <= NOMINAL or not problem.requirement.maneuvers:
             return self
         return self.covering(errors.needs(problem, device, self))
@@ -191,8 +186,7 @@ def reserve_record(
     """The reserve and its cost; None without maneuvers.
 
     Args:
-        reserve: with which the device was selected. errors: sampled errors.
-        problem: the problem solved. device: its solution.
+        reserve: with which the device was selected.
         resized: mass of the device of the same parts with another reserve [kg]; None: infeasible.
         nominal: mass of the lightest device without a reserve, before refinement [kg].
     """
@@ -302,11 +296,9 @@ class SampledErrors:
         return values_by_key
 
     def needs(self, problem: SelectionProblem, device: Candidate, reserve: Reserve) -> ReserveNeeds:
-        """What the robots need of a device, and what it can do.
+        """What the robots need of a device selected for the problem, and what it can do.
 
-        Args:
-            problem: for which it was selected. device: see `Candidate`.
-            reserve: its `scale` multiplies the deviations, its reliability sets the rates.
+        The reserve's `scale` multiplies the deviations, its reliability sets the rates.
         """
         drawn = {
             key: mean + reserve.scale * (values - mean)
@@ -561,9 +553,7 @@ class _SampledManeuver:
     def factors(self, sweeps: tuple[FloatArray, FloatArray], achieved: float) -> FloatArray:
         """Factor on the nominal demand with which each robot lands level, shape (robots,).
 
-        Args:
-            sweeps: required and possible, of each wheel.
-            achieved: factor that the device achieves.
+        Required and possible sweeps are those of each wheel; the device achieves this factor.
         """
         required, possible = sweeps
         low, high = np.full(len(required), _FACTOR_MIN), np.full(len(required), _FACTOR_MAX)

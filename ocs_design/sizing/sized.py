@@ -71,9 +71,7 @@ def sized_by_bound(sizing: DeviceSizing, wheel_speed_max: float) -> Sized:
 def sized_selection(problem: SelectionProblem, chosen: Candidate, robot: MassProperties) -> Sized:
     """Figures behind the selected, or the co-designed, device.
 
-    Args:
-        problem: the problem solved; its robot already carries the plate or the mast.
-        chosen: the device. robot: the robot alone, in B.
+    The problem's robot already carries the plate or the mast; `robot` is the robot alone, in B.
     """
     inertia = chosen.total.inertia
     requirement = problem.requirement

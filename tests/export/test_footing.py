@@ -9,7 +9,7 @@ import mujoco
 import numpy as np
 import pytest
 from robots import SOLO12
-from wheels import driven_device
+from wheels import driven_device, stand_on_trunk
 
 from ocs_design.device.solids import foot_of
 from ocs_design.export.assembly_notes import trunk_notes
@@ -18,7 +18,6 @@ from ocs_design.export.robot_model import robot_model
 from ocs_design.export.snippets import snippets
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.reader import read_robot
-from ocs_design.sizing.footing.standing import stand_on_trunk
 
 EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "solo12.urdf"
 

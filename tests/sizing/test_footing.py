@@ -13,7 +13,7 @@ from coarse_masts import coarse_mast_search
 from designed_devices import design_with_motor
 from robots import ROBOTS
 from subsets import fast_subset
-from wheels import driven_device
+from wheels import driven_device, stand_on_trunk
 
 from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.common.errors import Infeasible, OcsError
@@ -51,7 +51,7 @@ from ocs_design.sizing.footing.contact import FLATNESS
 from ocs_design.sizing.footing.feet import device_size, feet_of
 from ocs_design.sizing.footing.on_top import LATERAL_OFFSETS
 from ocs_design.sizing.footing.plate import POST_SCREW, support_at
-from ocs_design.sizing.footing.standing import footing_of, stand_on_trunk
+from ocs_design.sizing.footing.standing import footing_of
 from ocs_design.sizing.free_place import place_free, place_on_top
 from ocs_design.sizing.mounting import contacts_of, mounting_of, mounting_open_points
 from ocs_design.sizing.place import SPACING

@@ -10,7 +10,7 @@ import trimesh
 from coarse_masts import coarse_mast_search
 from manifold3d import Manifold, Mesh64, OpType
 from urdf_text import inertial, solid, topped
-from wheels import driven_device
+from wheels import driven_device, stand_on_trunk
 
 from ocs_design.common.errors import OcsError
 from ocs_design.device.checks import check_device
@@ -28,7 +28,6 @@ from ocs_design.parts.plate_strength import mast_screws_use, mast_stress
 from ocs_design.robot.reader import read_robot
 from ocs_design.robot.surface import surface_of, trunk_triangles
 from ocs_design.sizing.footing.formed import DEPTH_MAX, TILT_MAX, front_of
-from ocs_design.sizing.footing.standing import stand_on_trunk
 from ocs_design.sizing.mounting import mounting_of, mounting_open_points
 
 DEVICE = driven_device()

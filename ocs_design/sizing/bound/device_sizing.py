@@ -103,11 +103,8 @@ def device_demands(
 ) -> tuple[SpinDemand, ...]:
     """Demand on a wheel of each part of the requirement, with the inertia at its own incidence.
 
-    A maneuver with an incidence of its own turns the wheels, and with them their inertia.
-
-    Args:
-        problem: requirement and robot.
-        shape: of both rims; None: robot alone. incidence: of the design [rad].
+    A maneuver with an incidence of its own turns the wheels, and with them their inertia. Without a
+    shape of the rims, it is that of the robot alone.
     """
 
     @cache
@@ -138,11 +135,8 @@ def design_momenta(requirement: Requirement, inertia: FloatArray) -> FloatArray:
 
     Maneuvers for which the device is turned by hand do not affect the design's incidence. Demand
     about an axis that is due to coupling alone counts only where the turn would otherwise end off
-    level: the cube root of a tiny figure is large.
-
-    Args:
-        requirement: maneuvers and rate change.
-        inertia: of the robot with its device, wheels braked [kg m^2], shape (3, 3).
+    level: the cube root of a tiny figure is large. `inertia`: of the robot with its device, wheels
+    braked [kg m^2], shape (3, 3).
     """
     whole, height = TiltInertia.of(inertia), requirement.standing_height
     alone = TiltInertia.uncoupled(whole.diagonal)

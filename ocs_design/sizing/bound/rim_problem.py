@@ -169,9 +169,7 @@ def limits_with_web(
     and are taller than a web of equal mass would be in their own material.
 
     Args:
-        limits: of the rims alone.
-        hub_radius: [m].
-        cuts: chamfers and holes of the rims.
+        limits: of the rims alone. hub_radius: [m].
         web_density: of web and hub [kg/m^3]; None: in one piece with the rim.
         rim_height_min: least height with room for the hub's screws (`rim_height_min`) [m].
         lightened: fraction of the web that holes remove (`Hub.lightened`).

@@ -141,12 +141,9 @@ def _contact(
     points: tuple[FloatArray, FloatArray],
     plane: float,
 ) -> FootContact:
-    """Contact with the trunk of a part whose underside is a plane.
+    """Contact with the trunk of a part whose underside is a plane at a height in B [m].
 
-    Args:
-        name: of the part. surface: of the trunk; None: unknown.
-        points: of its underside and of its screws' lands, shape (n, 2) each.
-        plane: its height in B [m].
+    `points`: of its underside and of its screws' lands, shape (n, 2) each.
     """
     if surface is None:
         return FootContact(name, "trunk", None, None, 0.0, held=None)

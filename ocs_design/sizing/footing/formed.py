@@ -48,9 +48,7 @@ def front_of(back: HeightMap, half: float, low: float, high: float) -> FloatArra
     """Backward distances of a block's front on a grid to the left and upwards [m], shape (m, n).
 
     None: the trunk is not everywhere behind it, is too deep, or has an edge that it cannot follow.
-
-    Args:
-        back: of the trunk. half: of the block's width [m]. low, high: its ends in B [m].
+    `half`: of the block's width [m]; `low`, `high`: its ends in B [m].
     """
     cells = [int(np.ceil(length / STEP)) for length in (2.0 * half, high - low)]
     left, up = (
@@ -85,8 +83,7 @@ def block_thicknesses(
 ) -> tuple[float, tuple[tuple[float, ...], ...]]:
     """Plane where a flat block of that thickness starts, and thicknesses of the formed one [m].
 
-    Args:
-        front: see `front_of`. spacer: least thickness [m].
+    `front`: see `front_of`; `spacer`: least thickness [m].
     """
     plane = round(float(front.max()), 6)
     thick = np.floor((spacer + plane - front) * 10**_DIGITS + 1e-6) / 10**_DIGITS

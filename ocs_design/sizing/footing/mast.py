@@ -247,9 +247,7 @@ def _place_behind(
 ) -> Place:
     """Place of pairs behind the trunk, clear of it and of a mast's upright.
 
-    Args:
-        back: of the trunk. plate: on arms. size: of a module.
-        height: of the lowest plate in B [m]. face: distance of the upright's front backwards [m].
+    `height`: of the lowest plate in B [m]; `face`: distance of the upright's front backwards [m].
     """
     mast, out = plate.mast, SPACING * size.reach
     assert mast is not None, "a plate on arms"
@@ -290,13 +288,7 @@ def _footing_on_mast(
     search: Search,
     spot: _MastPlace,
 ) -> Footing | None:
-    """Pairs on a mast behind the trunk; None: the mast cannot hold them there.
-
-    Args:
-        back, plate: see `_place_behind`. feet: of all modules. search: of the largest, and of
-            limbs.
-        spot: where it stands.
-    """
+    """Pairs on a mast behind the trunk; None: the mast cannot hold them there."""
     mast, height, spacer = plate.mast, spot.height, spot.spacer
     assert mast is not None, "a plate on arms"
     half, best, size = mast.side / 2.0, None, search.sizes.largest
@@ -365,11 +357,7 @@ def _patterns(
     """Patterns of four screws that fit the trunk's back and are strong enough, shortest mast first.
 
     Each is the lower and the upper height, the distance to both sides, and for both heights the
-    least and largest distance of the trunk backwards.
-
-    Args:
-        back: of the trunk. feet: of all modules. plate: on arms.
-        spot: where it stands. centers: of the wheels [m], a row each.
+    least and largest distance of the trunk backwards. `centers`: of the wheels [m], a row each.
     """
     mast, mast_screw, height = plate.mast, plate.screw, spot.height
     assert mast is not None, "a plate on arms"
@@ -422,7 +410,7 @@ def _pairs(
     side.
 
     Args:
-        back: of the trunk. radius: of the sleeves [m].
+        radius: of the sleeves [m].
         least, most: range of the distance of their centres to both sides [m].
         is_formed: whether a block is shaped to the trunk there, which may then be steep.
     """

@@ -105,10 +105,8 @@ def _nearest_footing(
     """The place nearest to that of the feet where they are held and no leg comes near.
 
     The cost is the distance forward or back plus the thickness of the plate and its longest sleeve.
-
-    Args:
-        surface: of the trunk. feet: on it, as close together as possible. search: of places.
-        lateral_offset: extra distance of each to its side [m]. plate_screw: screws of a plate.
+    The feet are given as close together as possible, and `lateral_offset` is the extra distance of
+    each to its side [m].
     """
     bases = tuple((x, y + copysign(lateral_offset, y)) for x, y in feet.bases)
     feet = replace(feet, bases=bases)
@@ -197,9 +195,7 @@ def _supports(
 ) -> tuple[list[float], tuple[Pedestal, ...]] | None:
     """Heights of the modules in B and the pedestals under them; None: the trunk does not hold all.
 
-    Args:
-        surface: of the trunk. device: with its modules above their intended places.
-        fixed: whether their heights are fixed too.
+    The modules are above their intended places; `fixed`: whether their heights are fixed too.
     """
     heights, pedestals, foot = [], [], foot_of(device)
     for module in device.modules:

@@ -103,10 +103,8 @@ def flat_patterns(
 ) -> Patterns:
     """Screw patterns at which the trunk may be flat, whatever its height.
 
-    Args:
-        surface: of the trunk. feet: on it. row: distance of the plates' centre ahead of the feet's
-            [m].
-        plates: plates that differ only in their necks, the narrowest first.
+    `row`: distance of the plates' centre ahead of the feet's [m]; `plates` differ only in their
+    necks, the narrowest first.
     """
     grid = _pattern_grid(
         feet.y,
@@ -181,10 +179,7 @@ def with_screws(
 ) -> CarrierPlate | None:
     """The plate with the widest pattern of screws that the trunk holds; None: there is none.
 
-    Patterns without sleeves come first.
-
-    Args:
-        surface: of the trunk. plate: in its place. patterns: candidates for each row.
+    Patterns without sleeves come first. There are candidates for each row of the plate.
     """
     trunk: list[Point] = []
     sleeves: list[float] = []
@@ -207,8 +202,7 @@ def _widest_pattern(
 ) -> tuple[int, FloatArray] | None:
     """Index of the widest pattern that holds one row of a plate, and its sleeves' lengths [m].
 
-    Args:
-        surface, plate, patterns: see `with_screws`, of one row. x: of its middle in B [m].
+    `x`: of the row's middle in B [m].
     """
     z, longest = plate.position[2], POST_MAX if plate.on_posts else SLEEVE_MAX
     spread = np.minimum(patterns.along, patterns.across) + 0.1 * (patterns.along + patterns.across)
@@ -261,7 +255,6 @@ def support_at(
     The height is NaN where neither does.
 
     Args:
-        surface: of the trunk. feet: on it.
         underside: specified height of the feet in B [m]; None: the trunk's height.
         screws: screws of a plate, tried in turn.
     """
@@ -330,8 +323,7 @@ def _plate(
 def blank_plate(feet: Feet, radius: float, neck: float) -> CarrierPlate:
     """Plate of the thinnest stock under feet around the origin, without screws.
 
-    Args:
-        feet: that stand on it. radius: of its ends [m]. neck: half the width between them [m].
+    `radius`: of its ends [m]; `neck`: half the width between them [m].
     """
     return CarrierPlate(
         position=(0.0, 0.0, 0.0),
@@ -381,10 +373,8 @@ def _thinnest_plate(
 ) -> CarrierPlate | None:
     """The thinnest plate of this outline that the trunk holds and that is strong enough.
 
-    Args:
-        surface: of the trunk. feet: on it. blank: the plate without screws.
-        patterns: candidate screw patterns of each row.
-        levels: heights of its underside in B, and the thicknesses to try at each [m].
+    `patterns`: candidates for each row; `levels`: heights of its underside in B, and the
+    thicknesses to try at each [m].
     """
     x, y, _ = blank.position
     for height, thicknesses in levels:
@@ -403,11 +393,7 @@ def _thinnest_plate(
 def thick_enough(
     blank: CarrierPlate, feet: Feet, stress: float, thicknesses: tuple[float, ...] = STOCK
 ) -> Iterator[CarrierPlate]:
-    """The plate in each of the thicknesses [m] that keep it below a stress, in order.
-
-    Args:
-        blank: of any thickness. feet: on it. stress: allowed [Pa].
-    """
+    """The plate in each of the thicknesses [m] that keep it below a stress [Pa], in order."""
     stresses = plate_stresses(blank, np.array(thicknesses), feet.mass, feet.height)
     for thickness, largest in zip(thicknesses, stresses.tolist(), strict=True):
         if largest <= stress:

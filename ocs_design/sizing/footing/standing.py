@@ -47,12 +47,8 @@ def footing_of(
     module's feet are held, by the trunk or by a plate, and where no leg comes near. Where there is
     none, or the trunk's shapes are unknown, it is that of `place_free`: a mast, whose place and
     mass depend on the modules, is searched for only for a chosen device (`footing_under`). Plates
-    carry pairs and rings of three or more.
-
-    Args:
-        robot: that carries them. envelope: room for a rim.
-        position: as specified in B [m] (`place_at`); None: free.
-        layout: of the modules.
+    carry pairs and rings of three or more. `position`: as specified in B [m] (`place_at`); None:
+    free.
     """
     sizes, surface = Sizes.of(envelope), trunk_surface(robot)
     largest, mass = sizes.largest, MODULE_SHARE * robot.mass
@@ -76,24 +72,6 @@ def footing_of(
     return Footing(place_free(robot, envelope, layout).place, None)
 
 
-def stand_on_trunk(
-    device: Device, robot: Robot, *, specified: bool, formed: bool = False
-) -> Device:
-    """The device with its feet on the trunk, and a plate under them where they are not held.
-
-    Modules whose place is not specified move to the height of their support, and forward or back to
-    the nearest place where they are held. Where there is none, the device stays as it is: see
-    `contacts_of`.
-
-    Args:
-        device: as selected. robot: that carries it.
-        specified: whether the modules' positions are specified.
-        formed: whether a mast may stand on a block shaped to the trunk.
-    """
-    footing = footing_under(device, robot, specified=specified, formed=formed)
-    return device if footing is None else standing_on(device, footing)
-
-
 def standing_on(device: Device, footing: Footing) -> Device:
     """The device with its modules at the positions of its footing."""
     centers = footing.place.centers(device_size(device))
@@ -112,10 +90,14 @@ def footing_under(
     formed: bool = False,
     failed: FailedSearches | None = None,
 ) -> Footing | None:
-    """Footing of a chosen device; see `stand_on_trunk`. None: no known support.
+    """Footing of a selected device: its feet on the trunk, and a plate where they are not held.
+
+    Modules whose place is not specified move to the height of their support, and forward or back to
+    the nearest place where they are held. None: there is none, or no known one (`contacts_of`).
 
     Args:
-        device, robot, specified, formed: see there.
+        specified: whether the modules' positions are specified.
+        formed: whether a mast may stand on a block shaped to the trunk.
         failed: searches on this robot that have failed; None: none yet.
     """
     failed = failed or FailedSearches()

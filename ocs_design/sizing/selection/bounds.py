@@ -196,8 +196,6 @@ def least_spin_inertias(
     """Lower bounds of the spin inertia of each drive, improved per interval [kg m^2], shape (n, k).
 
     Args:
-        problem: robot, requirement, envelope, place.
-        drives: n of them. intervals: k of them.
         below: the best lower bound known over all intervals [kg m^2], shape (n,).
         limits: of their rims; None: those of the problem as a whole.
     """
@@ -228,12 +226,7 @@ def bound_task(
     intervals: Sequence[Interval],
     layout: Layout,
 ) -> WheelBound:
-    """The least that a maneuver requires of the wheels, fields of shape (n, k, ...).
-
-    Args:
-        least: lower bound of the inertia that they turn, n of them.
-        intervals: of the layout's angle, k of them.
-    """
+    """The least that a maneuver requires of n trunks' wheels at k intervals, shape (n, k, ...)."""
     inertia = column(least.inertia)
     slew = requirement.slew(maneuver, TiltInertia.uncoupled(inertia.diagonal))
     ends = np.abs(layout.axes(np.array(intervals)))[..., :2, :]
@@ -306,11 +299,8 @@ def initial_guess(candidates: Candidates, spin_inertia: FloatArray) -> Guess:
     """Bounds of candidates with their own hubs, mounts and stresses, at their best incidences.
 
     The bounds on masses above hold for all wheels of a problem. The lightest module of a single
-    candidate takes a hundredth of the time of its fixed point.
-
-    Args:
-        candidates: n of them.
-        spin_inertia: a lower bound of their wheels' [kg m^2], shape (n,).
+    candidate takes a hundredth of the time of its fixed point. `spin_inertia` is a lower bound of
+    their wheels' [kg m^2], shape (n,).
     """
     intervals = incidence_intervals(candidates.problem.incidence)
     bounds = least_spin_inertias(

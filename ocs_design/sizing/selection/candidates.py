@@ -199,9 +199,8 @@ def rim_limits(
     """Limits of plain rims, one per row; see `limits_with_web` for those around a web.
 
     Args:
-        problem: room and materials.
-        material: index of each. overspeed: speed at which its hoop stress is limited [rad/s].
-        mount_reach: radius of the holes in its housing's floor [m].
+        overspeed: speed at which the hoop stress is limited [rad/s].
+        mount_reach: radius of the holes in the housing's floor [m].
     """
     room = problem.envelope
     rims = [RimProblem(0.0, room, kind, 1.0).limits for kind in problem.materials]
@@ -274,12 +273,9 @@ def known_pairs(problem: SelectionProblem) -> NDArray[np.bool_]:
 def drives_of(
     problem: SelectionProblem, pairs: NDArray[np.intp], webs: NDArray[np.intp] | None = None
 ) -> Drives:
-    """Drives of the problem.
+    """Drives of motors and gears whose data are known, by their indices, shape (n, 2).
 
-    Args:
-        problem: motors, gears, bus voltage, specified highest wheel speed.
-        pairs: indices of motors and gears whose data are known, shape (n, 2).
-        webs: index of each one's web, shape (n,); None: the first for all.
+    `webs`: index of each one's web, shape (n,); None: the first for all.
     """
     motors, gears = pairs.T
     web_indices = np.zeros_like(motors) if webs is None else webs

@@ -114,10 +114,8 @@ class ModuleBounds(NamedTuple):
     def asymmetry(self, apart: FloatArray, layout: Layout) -> FloatArray:
         """Upper bound on I_xy about their middle of modules that are not mirror images [kg m^2].
 
-        Args:
-            apart: positions of the wheels from their middle at each corner of the sizes [m], shape
-                (..., n, w, 3).
-            layout: of the modules.
+        `apart`: positions of the wheels from their middle at each corner of the sizes [m], shape
+        (..., n, w, 3).
         """
         _, outward, upward = np.moveaxis(layout.frames(layout.angle or 0.0), -1, 0)
         turned = sum(

@@ -49,7 +49,6 @@ def margins_of(
     """Margins of wheels in each part of the requirement.
 
     Args:
-        requirement: maneuvers and rate change.
         drives: n of them, each as part of its own `composite`.
         spin_inertia: of their wheels [kg m^2], shape (n,).
         angle: of the design's layout [rad], shape (n, k).
@@ -135,7 +134,6 @@ def wheel_task(
 
     Args:
         maneuvers: m of them, all headed or none.
-        requirement: of which they are part.
         inertia: of robot and device, shapes that broadcast against (n, k, 2) and (n, k).
         yaw_inertia: I_zz of robot and device, broadcasting against (n, k) [kg m^2]; used only if
             headed.
@@ -240,7 +238,7 @@ def roll_cancelling_momentum(
     axes: FloatArray,
     requirement: Requirement,
 ) -> FloatArray:
-    """Momentum that each wheel must be able to absorb to cancel a roll at lift-off in a flip.
+    """Momentum that each wheel must absorb to cancel a roll at lift-off in a flip [N m s], (...).
 
     It is 0 if the wheels also control yaw. If they do not control roll, it is inf while the
     incidence is still to be chosen, and 0 at a specified incidence.
@@ -249,10 +247,6 @@ def roll_cancelling_momentum(
         rate: of roll at lift-off [rad/s].
         inertia, yaw_inertia: of robot and device, and its I_zz [kg m^2], shapes (..., 2) and (...).
         axes: of the wheels, shape (..., 3, n).
-        requirement: of which the flip is a part.
-
-    Returns:
-        Momentum of each wheel [N m s], shape (...).
     """
     required = roll_momentum_per_rate(inertia.diagonal[..., 0], yaw_inertia) * rate / ROLL_CANCELLED
     remaining = (axes,) if requirement.detection is None else without_each(axes)

@@ -186,9 +186,7 @@ def fixed_point(
 ) -> FixedPoint:
     """The smallest wheels that meet the whole requirement.
 
-    Args:
-        candidates: n of them.
-        start: lower bounds of their spin inertias [kg m^2], shape (n,).
+    `start`: lower bounds of their spin inertias [kg m^2], shape (n,).
     """
     specified = candidates.problem.requirement.spin_inertia
     spin = start = np.maximum(start, candidates.least_spin_inertia)

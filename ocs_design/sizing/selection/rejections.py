@@ -292,10 +292,9 @@ def _parts(
 def _reason(
     problem: SelectionProblem, drive: Drives, part: RequirementPart, fitting: tuple[float, float]
 ) -> tuple[Reason, str]:
-    """The first obstacle, with figures.
+    """The first obstacle to a single drive in the worst part for it, with figures.
 
     Args:
-        problem: the problem searched. drive: a single one. part: the worst one for it, scalars.
         fitting: spin inertia of the largest wheel that fits, 0 where not even a rim does, and the
             same without a mass limit [kg m^2].
     """

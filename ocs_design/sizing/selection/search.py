@@ -139,9 +139,7 @@ class SearchState(PairBounds):
     def refine(self, refine_one: Callable[[Candidates, FixedPoint], FixedPoint]) -> None:
         """Refine candidates that may be the lightest of all, or may be feasible and lighter.
 
-        Args:
-            refine_one: finds the lightest device of one candidate near a point
-                (`refinement.refine`).
+        `refine_one`: finds the lightest device of one candidate near a point (`refinement.refine`).
         """
         gain = _REFINEMENT_GAIN if self.problem.incidence is None else _REFINEMENT_GAIN_AT_ANGLE
         for index, batch in enumerate(self.batches):
@@ -211,9 +209,8 @@ def search(
     its mass.
 
     Args:
-        problem: see `SelectionProblem`.
-        mass_max: only lighter devices need to be found [kg]. ranked: False: only the lightest is
-            searched for.
+        mass_max: only lighter devices need to be found [kg].
+        ranked: False: only the lightest is searched for.
     """
     state = SearchState.of(problem)
     state.mass_max, state.ranked = mass_max, ranked

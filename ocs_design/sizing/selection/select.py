@@ -223,10 +223,7 @@ def lightest_near(
 ) -> Candidate | None:
     """The lightest device of the same parts for another problem, at its own incidence.
 
-    None: there is none near it.
-
-    Args:
-        device: start of the search. criterion: see `select_by`.
+    None: there is none near it. The criterion is that of `select_by`.
     """
     incidence_is_free = problem.incidence is None and criterion is None
     solved = _solved_at(problem, [device], None if incidence_is_free else device.incidence)

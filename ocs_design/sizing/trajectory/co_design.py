@@ -296,10 +296,8 @@ def with_wheels(
 ) -> Iterator[Candidate]:
     """The selected device with other wheels, where a module of that spin inertia is feasible.
 
-    Args:
-        problem: for which it was selected. selected: the selection's outcome.
-        factors: spin inertias relative to the selected one, shape (n,).
-        radii: outer radii relative to the selected one; the nearest feasible one is used.
+    Spin inertias and outer radii are relative to the selected ones, shape (n,); the nearest
+    feasible radius is used.
     """
     limits, turning = selected.limits, selected.drive.rotor_inertia + selected.hub_share
     spin_inertias, outer_radii = factors * selected.spin_inertia, radii * selected.outer_radius

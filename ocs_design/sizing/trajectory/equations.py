@@ -168,12 +168,9 @@ def after_push(boundary: Boundary) -> ca.Function:
 def end_violation(axes_of_tilt: int, *, whole: bool) -> ca.Function:
     """Violation of the final conditions, which must be zero.
 
-    This is the remaining tilt about the axes that the wheels control, or all of the remaining turn.
+    This is the remaining tilt about k axes that the wheels control, or the `whole` remaining turn.
     Inputs: attitude (4, 1) and the `final` one, the final direction `up` in B (3, 1), and the
     directions in B along which the vertical must match it (k, 3).
-
-    Args:
-        axes_of_tilt: k. whole: whether all of the turn counts.
     """
     attitude, final = ca.SX.sym("attitude", 4), ca.SX.sym("final", 4)
     up, righted = ca.SX.sym("up", 3), ca.SX.sym("righted", axes_of_tilt, 3)

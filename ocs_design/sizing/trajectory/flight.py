@@ -50,10 +50,7 @@ class Flight:
 
 
 def fly(phase: Phase, line: DriveLine, motion: Motion) -> Flight:
-    """Integrate the torques of a motion from the start of the turn, for this robot and device.
-
-    `line`: usable voltage line of the drives.
-    """
+    """Integrate the torques of a motion from the start of the turn, for this robot and device."""
     boundary, gyrostat, turn = phase.boundary, phase.gyrostat, phase.outline
     wheels = gyrostat.axes.shape[1]
     mass_matrix = gyrostat.mass_matrix

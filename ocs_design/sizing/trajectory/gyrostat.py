@@ -139,11 +139,8 @@ class Gyrostat:
 def shared_by_others(axes: FloatArray, wheel: int) -> FloatArray:
     """Matrix from torques of all motors to those of the remaining ones for the same trunk torque.
 
-    `pinv(A_k) A`, with A_k the axes with column k set to zero: the smallest torques, as close as
-    the remaining axes allow.
-
-    Args:
-        axes: A, as columns, shape (3, n). wheel: k, whose motor gives no torque.
+    `pinv(A_k) A`, with A_k the axes A, shape (3, n), with column k set to zero, whose motor gives
+    no torque: the smallest torques, as close as the remaining axes allow.
     """
     running = np.arange(axes.shape[1]) != wheel
     return np.asarray(

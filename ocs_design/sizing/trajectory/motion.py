@@ -215,9 +215,8 @@ class FixedAxisTurn:
     def of(cls, boundary: Boundary, attitude: FloatArray, rate: FloatArray) -> "FixedAxisTurn":
         """The turn that a maneuver requires.
 
-        Args:
-            attitude: at the start of the turn, which is the end of a push, shape (4,).
-            rate: of the trunk then, in B [rad/s], shape (3,).
+        Attitude, shape (4,), and rate of the trunk in B [rad/s], shape (3,), are those at its
+        start, which is the end of a push.
         """
         speed = float(np.linalg.norm(rate))
         if speed == 0.0:

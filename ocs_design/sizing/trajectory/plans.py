@@ -136,10 +136,9 @@ def plan(
         robot: without the device, in B.
         device: with a real motor.
         maneuvers: each at its own incidence, if it has one.
-        standing_height: of the trunk above the ground [m].
+        standing_height, one_stops: see `reference`.
         kept: factor on the demand that the device keeps in reserve for a maneuver, by name; 1 if
             absent.
-        one_stops: see `reference`.
     """
     line, factors, references = drive_line_of(device), kept or {}, {}
     for maneuver in maneuvers:

@@ -192,10 +192,8 @@ def _plan_program(
 ) -> tuple[ca.Opti, dict[str, ca.MX], Variables]:
     """Program for all turns of one structure, with the nonzero numbers as its parameters.
 
-    Deriving a program takes as long as 40 iterations.
-
-    Args:
-        structure: of the turns. patterns: each number's name, and where it is not zero.
+    Deriving a program takes as long as 40 iterations. `patterns`: each number's name, and where it
+    is not zero.
     """
     program, parameters, numbers = ca.Opti(), {}, {}
     for name, pattern in patterns:
