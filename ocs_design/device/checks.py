@@ -13,9 +13,11 @@ import numpy as np
 
 from ocs_design.common.errors import OcsError, SpecificationError
 from ocs_design.common.ranges import LARGEST_LENGTH, SMALLEST_LENGTH, ranges_of
+from ocs_design.common.units import format_quantity
 from ocs_design.device.device import Device, Flywheel
 from ocs_design.device.records.flights import ControlRecord
 from ocs_design.parts.carrier_plate import CarrierPlate, Mast
+from ocs_design.requirement.vocabulary import is_whole_steps
 from ocs_design.robot.mass import MassProperties
 
 if TYPE_CHECKING:
@@ -54,7 +56,11 @@ def check_control(control: ControlRecord) -> None:
     Raises:
         OcsError: lists every fault.
     """
-    _refuse("a wheel law that cannot be flown", [*_figures(control, "control")])
+    faults = [*_figures(control, "control")]
+    if not is_whole_steps(control.period):
+        given = format_quantity(control.period, "ms", 12)
+        faults.append(f"control.period is {given}, not a whole number of milliseconds")
+    _refuse("a wheel law that cannot be flown", faults)
 
 
 def _refuse(subject: str, faults: Sequence[str]) -> None:

@@ -32,6 +32,7 @@ from ocs_design.requirement.vocabulary import (
     RING,
     STEEL,
     WHEELS,
+    is_whole_steps,
 )
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.stance import LANDING_TOLERANCE
@@ -89,6 +90,14 @@ def contradictions(specification: Specification) -> Iterator[str]:
     yield from _needing_gravity(specification)
     for maneuver in specification.maneuvers:
         yield from maneuver.contradictions()
+    yield from _uneven_period(specification.validation.control_period)
+
+
+def _uneven_period(period: float | None) -> Iterator[str]:
+    """A control period that flights cannot keep, as one line."""
+    if period is not None and not is_whole_steps(period):
+        given = format_quantity(period, "ms", 12)
+        yield f"validation.control_period: {given} is not a whole number of milliseconds"
 
 
 def _without_effect(

@@ -341,8 +341,11 @@ class Choice:
         """Value that `raw` stands for (`Value.read`)."""
         if isinstance(raw, str) and (word := _as_written(raw, self.words)):
             return word
+        # Choices of several words, as in 'any one motor', are quoted to keep them apart.
+        quoted = any(" " in word for word in self.words)
+        known = (f"{word!r}" if quoted else word for word in self.words)
         raise SpecificationError(
-            f"{where}: {shortened(raw)} is not one of {', '.join(self.words)}",
+            f"{where}: {shortened(raw)} is not one of {', '.join(known)}",
             hint=did_you_mean(raw, self.words),
         )
 

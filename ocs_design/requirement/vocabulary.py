@@ -88,5 +88,15 @@ driven wheel changes by less than it should."""
 CONTROL_PERIOD = 0.005
 """Default control period: time between two torque commands to the wheels [s]."""
 
+CONTROL_STEP = 1e-3
+"""Control periods are multiples of it [s]: flights hold a torque for whole steps of physics."""
+
+
+def is_whole_steps(period: float) -> bool:
+    """Whether a control period [s] is a multiple of `CONTROL_STEP`."""
+    steps = period / CONTROL_STEP
+    return steps > 0.5 and abs(steps - round(steps)) < 1e-6
+
+
 PROJECTIONS = ("pseudo-inverse", "transpose")
 """Ways to distribute a torque on the trunk to the wheels (docs/theory.md, The control law)."""

@@ -36,7 +36,7 @@ _LIKELY = 0.3
 """Least confidence at which a reading is offered as an answer."""
 
 _SHOWN_CONFIDENCE = 0.5
-"""Least confidence at which an uncertain reading is shown at all."""
+"""Least confidence at which an uncertain reading with legs is shown at all."""
 
 
 _MOST_ANSWERS = 3
@@ -102,18 +102,30 @@ def recognise(
         return Recognition(best, (), specified)
     if legless.confidence >= SURE and arms:
         return Recognition(legless, (), specified)
-    offered = sorted(
-        {id(reading): reading for reading in (best, *likely)}.values(),
-        key=lambda reading: (not reading.legs, -reading.confidence),
-    )
+    offered = list({id(reading): reading for reading in (best, *likely)}.values())
     if all(reading.legs for reading in offered):
         offered.append(legless)
     root = frame_link(tree.bodies[0])
     if trunk is None and legless in offered and legless.trunk != root:
         # An upper body's heaviest link is its chest, but its pelvis may be the intended trunk.
         offered.append(anatomy.without_legs(None, likely=not arms, body=root))
+
+    # This is a tool for legged robots: legs come first, unless they have names of arms. Of trunks
+    # that are as likely, the root is usually meant.
+    offered.sort(
+        key=lambda reading: (
+            not reading.legs or _sign_holds(reading, NAMES) is False,
+            -round(reading.confidence, 9),
+            bool(reading.legs),
+            reading.trunk != root,
+        )
+    )
     # Commands that only show the robot, and need no certainty, show the likeliest reading.
-    shown = offered[0] if offered[0].confidence >= _SHOWN_CONFIDENCE else legless
+    shown = next(
+        reading
+        for reading in offered
+        if not reading.legs or reading.confidence >= _SHOWN_CONFIDENCE
+    )
     return Recognition(shown, tuple(offered), specified)
 
 
@@ -279,8 +291,10 @@ class _Readings(Anatomy):
         chain = len(self.tree.bodies) > 2 and all(
             len(children) < 2 for children in self.children.values()
         )
+        # A heavy root that carries one chain, such as a pendulum on a cart, is no arm.
+        is_arm = chain and self.tree.body_of_link[self.heaviest] > 0
         doubts = (
-            *((Doubt("the robot is one chain, as an arm is", 0.6),) if chain and index else ()),
+            *((Doubt("the robot is one chain, as an arm is", 0.6),) if is_arm else ()),
             *((Doubt(_FIXED, 0.75),) if self.floats() is False else ()),
         )
         return Reading(name, (), signs, doubts)

@@ -6,7 +6,6 @@ import mujoco
 import numpy as np
 
 from ocs_design.common.arrays import FloatArray
-from ocs_design.common.errors import SpecificationError
 from ocs_design.common.units import STANDARD_GRAVITY
 from ocs_design.device.bodies import flywheel_names, joint_names
 from ocs_design.device.device import Device
@@ -259,20 +258,8 @@ def control_of(specified: ValidationSection, robot: Robot) -> ControlRecord:
 
 
 def overridden(control: ControlRecord, specified: ValidationSection) -> ControlRecord:
-    """Wheel law as recorded, with the specified values replaced.
-
-    Raises:
-        SpecificationError: the control period is not a whole number of physics steps.
-    """
-    period = control.period
-    if specified.control_period is not None:
-        steps = specified.control_period / STEP
-        period = round(steps) * STEP
-        if steps < 0.5 or abs(steps - round(steps)) > 1e-6:
-            raise SpecificationError(
-                f"validation.control_period: {steps * STEP:.4g} s is not a whole number of "
-                f"milliseconds"
-            )
+    """Wheel law as recorded, with the specified values replaced."""
+    period = round((specified.control_period or control.period) / STEP) * STEP
     given = {
         name: getattr(specified, name) for name in vars(control).keys() & vars(specified).keys()
     }

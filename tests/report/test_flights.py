@@ -73,6 +73,20 @@ def test_a_landing_that_is_worse_with_the_device_has_a_remark(without, remarked)
     assert [text.endswith("kerb 52.7 deg, 30.6 deg without") for text in texts] == [True] * remarked
 
 
+@pytest.mark.parametrize(
+    ("turn", "remarked"),
+    [({"yaw": 1.0}, True), ({"pitch": 0.3}, False), ({"yaw": 1.0, "end": End.AT_REST}, False)],
+)
+def test_a_landing_that_is_to_be_tilted_is_not_compared_with_a_level_one(turn, remarked):
+    """A turn to a pitch of 17 deg was said to swing further than the robot that just hops."""
+    maneuver = TurnTo(name="kerb", jump_height=0.5, duration=0.5, **turn)
+    original = design()
+    requirement = replace(original.requirement, maneuvers=(ManeuverRecord.of(maneuver),))
+    runs = run(swing=52.7), run(ocs=False, swing=30.6)
+    texts = list(flight_remarks(replace(original, requirement=requirement, validation=runs)))
+    assert any("swings further" in text for text in texts) is remarked
+
+
 def test_one_remark_names_all_flights_that_end_leaning():
     (remark,) = remarks(run(final=-15.5), run("drop", final=12.9), run("flip", final=1.0))
     assert "ends leaning: kerb 15.5 deg, drop 12.9 deg" in remark

@@ -271,7 +271,13 @@ def test_a_lone_arm_raises_a_question():
     recognition = recognised(elements)
     assert not recognition.sure
     assert recognition.reading.legs == ()
-    assert "as an arm is" in question_about(recognition).message
+    question = question_about(recognition)
+    assert "as an arm is" in question.message
+    # Once a link was called the most likely trunk at a lower share than the next answer's.
+    shares = [reading.confidence for reading in recognition.likely]
+    assert shares == sorted(shares, reverse=True)
+    assert recognition.reading == recognition.likely[0]
+    assert "'base' as the trunk" in question.message
     assert recognise(read(elements), trunk="base", legs=[]).sure
 
 

@@ -182,10 +182,15 @@ def test_a_turn_in_orbit_is_restored_without_a_jump():
 
 
 @pytest.mark.parametrize(
-    "change", [{"kp": -5.0}, {"kd": 0.0}, {"period": 0.0}, {"projection": "foo"}], ids=str
+    "change",
+    [{"kp": -5.0}, {"kd": 0.0}, {"period": 0.0}, {"period": 0.0025}, {"projection": "foo"}],
+    ids=str,
 )
 def test_a_wheel_law_that_cannot_be_flown_is_refused(change):
-    """A period of 0 ended in a division by zero, and a negative gain was flown."""
+    """A period of 0 ended in a division by zero, and a negative gain was flown.
+
+    With a period of 2.5 ms the law was called every 2 ms.
+    """
     law = ControlRecord(projection="transpose", kp=60.0, kd=12.0)
     assert check_control(law) is None
     (figure,) = change
