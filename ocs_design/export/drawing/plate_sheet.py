@@ -16,6 +16,7 @@ import numpy as np
 from ocs_design.actuation.fasteners import screw
 from ocs_design.common.arrays import FloatArray
 from ocs_design.device.device import Device
+from ocs_design.device.joints import foot_screws
 from ocs_design.export.drawing import sheet
 from ocs_design.export.drawing.sheet import Anchor, Circle, Item, Lettering, Line, Point, Polyline
 from ocs_design.export.drawing.title_block import (
@@ -51,6 +52,10 @@ _CLEARANCE = 0.25
 _STEP = 0.2
 """Distance between points along lines, to keep names clear of them [mm]."""
 
+_LEAST_UNTAPPED = 2.0e-3
+"""Thickness that a plate must have beyond the least depth of its threads, to leave it untapped [m].
+"""
+
 _CROSS = 2.0
 """Length of centre lines beyond a hole [mm]."""
 
@@ -67,11 +72,13 @@ def plate_sheets(device: Device, robot: str, refused: str = "") -> list[list[Ite
     if plate is None:
         return []
     drawn = []
+    engaged = max(foot_screws(device, module).engagement for module in device.modules)
     for indices in plate.kinds:
         sample = plate.single_plates[indices[0]]
         figure = "Thickness", f"{in_mm(plate.thickness)} (EN 485-4)"
         figures = plate_part(sample).mass(), figure, "as rolled, edges Ra 6.3 (ISO 21920)"
-        notes = _plate_notes(sample, [plate.single_plates[at].position[:2] for at in indices])
+        middles = [plate.single_plates[at].position[:2] for at in indices]
+        notes = _plate_notes(sample, middles, engaged)
         drawn.append((_title(plate, indices), _top_view(sample), figures, notes))
     if (mast := plate.mast) is not None:
         figure = "Square tube", f"{in_mm(mast.side)} x {in_mm(mast.wall)} (EN 755-8)"
@@ -247,11 +254,24 @@ def _hole_table(plate: CarrierPlate) -> Iterator[Item]:
         yield Line((x, y - 3.6), (RIGHT - 4.0, y - 3.6), sheet.THIN)
 
 
-def _plate_notes(plate: CarrierPlate, middles: list[tuple[float, float]]) -> Iterator[str]:
-    """Notes on a plate, or on equal plates with their middles there in the base frame [m]."""
+def _plate_notes(
+    plate: CarrierPlate, middles: list[tuple[float, float]], engaged: float
+) -> Iterator[str]:
+    """Notes on a plate, or on equal plates with their middles there in the base frame [m].
+
+    The feet's screws engage its threads over the length `engaged` [m].
+    """
+    # Two turns more than the screws reach.
+    tapped = 1e-3 * math.ceil(1e3 * (engaged + 2.0 * screw(plate.foot_thread).pitch) - 1e-6)
+    threads = f"threads {plate.foot_thread} right through"
+    if plate.thickness - tapped > _LEAST_UNTAPPED:
+        threads = (
+            f"drilled right through, with threads {plate.foot_thread} at least {in_mm(tapped)} "
+            "deep from above"
+        )
     yield (
-        f"Holes A are threads {plate.foot_thread} right through, for the "
-        "feet's screws; places of holes ±0.1 from the axes, x forward and y to the left."
+        f"Holes A are {threads}, for the feet's screws; places of holes ±0.1 from the axes, x "
+        "forward and y to the left."
     )
     crosses = " and ".join(
         f"({in_mm(round(x, 5) + 0.0)}, {in_mm(round(y, 5) + 0.0)})" for x, y in middles

@@ -167,6 +167,17 @@ def test_plates_that_differ_have_a_sheet_each(inwards):
         check_words(page)
 
 
+@pytest.mark.parametrize(("thickness", "deep"), [(3e-3, None), (6e-3, None), (20e-3, 4)])
+def test_a_thick_plate_is_not_tapped_right_through(thickness, deep):
+    """M3 x 6 through a base of 3 mm reach 3 mm into the plate, and two turns are 1 mm."""
+    plate = replace(PLATE, thickness=thickness)
+    notes = " ".join(item.text for item in texts(sheets_of(plate)[0]))
+    expected = "Holes A are threads M3 right through, for the feet's screws"
+    if deep:
+        expected = f"drilled right through, with threads M3 at least {deep} deep from above, for"
+    assert expected in notes
+
+
 def test_the_sheet_rounds_the_sizes_as_the_bill_does(plate):
     """Once half a hundredth of a millimetre, as on Unitree's G1, gave 336.80 and 336.79."""
     for variant in (plate, replace(plate, radius=0.0478275, across=0.1205675)):
