@@ -371,10 +371,10 @@ def _plate_steps(assembly: Assembly, plate: CarrierPlate, holes: str) -> Iterato
         room = (plate.screw.clearance_hole - plate.screw.diameter) / 2.0
         yield (
             f"{cut} {plate.thread} under {own} other {len(plate.trunk)} holes "
-            "(cad/drilling.pdf, printed at 100 %, which says how deep). Drill one of the holes of "
-            f"{each} by the template, screw it on there, turn it to the other crosses and spot "
-            f"them through it: its holes leave {1e3 * room:.2g} mm around the screws, and paper is "
-            "less exact."
+            "(cad/drilling.pdf, printed at 100 %, which says how deep). Drill and tap one of those "
+            f"under {each} by the template, screw it on there, turn it to the other crosses and "
+            f"spot them through it: its holes leave {1e3 * room:.2g} mm around the screws, and "
+            "paper is less exact."
         )
     else:
         yield (

@@ -208,7 +208,7 @@ def test_all_plates_are_made_each_to_its_sheet(inwards):
     text = texts(Assembly("anymal", both), "Steps")
     assert re.search(r"Make the 2 plates \(\d+\) to cad/plate\.pdf", text)
     assert "under their other 8 holes" in text
-    assert "Drill one of the holes of each plate by the template" in text
+    assert "Drill and tap one of those under each plate by the template" in text
     row = next(row for row in bill_rows(both) if row.piece == "plate")
     assert row.quantity == 2
     for words in (text, row.remark):
