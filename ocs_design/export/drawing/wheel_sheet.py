@@ -51,6 +51,10 @@ RUN_OUT = 1e3 * joints.RUN_OUT
 """Permissible run-out of the rim to the bore [mm]."""
 
 
+_LEAST_SHARE = 1e-5
+"""Share of the inertia that inside corners must add to be noted."""
+
+
 def write(subject: "Subject", folder: Path) -> "Notes":
     """Write `wheel.svg`, the same as `wheel.pdf`, and the sheets of other parts.
 
@@ -166,7 +170,8 @@ def notes(drawing: WheelDrawing) -> Iterator[str]:
         yield f"{broken_edges.capitalize()}: those of the rim are {losses}, not taken off here."
     if drawing.yield_strength is not None:
         yield (
-            f"Material with a yield strength of at least {drawing.yield_strength / 1e6:.0f}~MPa, "
+            f"{'Rim of material' if wheel.shrunk_on else 'Material'} with a yield strength of at "
+            f"least {drawing.yield_strength / 1e6:.0f}~MPa, "
             "as assumed in sizing."
         )
     # Screws clamp a hub by its faces, and a short bore alone does not say where the axis points.
@@ -185,7 +190,8 @@ def notes(drawing: WheelDrawing) -> Iterator[str]:
     if web is not None:
         radius, share = inside_corners(wheel)
         if radius > 0.0:
-            yield f"Inside corners at most R~{in_mm(radius)} (+{_percent(share)} of inertia)."
+            added = f" (+{_percent(share)} of inertia)" if share > _LEAST_SHARE else ""
+            yield f"Inside corners at most R~{in_mm(radius)}{added}."
         yield run_out
         if web.hub.bolts == 0 and drawing.on_shaft:
             yield "No bolt circle: bonded on the motor's shaft."
