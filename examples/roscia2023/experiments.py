@@ -18,7 +18,6 @@ from ocs_design.requirement.pushes import Disturbance
 from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.turns import Drop, Flip
 from ocs_design.robot.robot import Robot
-from ocs_design.simulation.reference import Step
 from ocs_design.simulation.run import Metrics, Run
 from ocs_design.simulation.scenario import Flights as Flown
 from ocs_design.simulation.scenario import run_scenarios
@@ -69,7 +68,7 @@ def fly() -> Flights:
         maneuvers = (jump, drop, flip, high)
         asked = replace(stated, maneuvers=maneuvers)
         outcome = design_ocs(asked, out=Path(folder) / "paper")
-    at_once = Options(drop_profile=Step())
+    at_once = Options(drop_at_once=True)
     step, _ = run_scenarios(Flown(outcome.robot, outcome.device, [drop], options=at_once))
     return Flights(
         {maneuver.name: maneuver for maneuver in maneuvers},

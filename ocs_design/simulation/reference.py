@@ -1,113 +1,33 @@
 """Turns that the wheels can follow, as reference attitude and rate."""
 
-from abc import ABC, abstractmethod
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ocs_design.actuation.drive import RESERVE
 from ocs_design.common.arrays import FloatArray
 from ocs_design.simulation.motor_limits import MotorLimits
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 
-_TRAPEZOID_NOTE = (
-    f"the turn follows a trapezoidal rate profile instead of the quintic, which would take more "
-    f"than {RESERVE:.0%} of the motors' voltage or current"
-)
 _STEP_NOTE = (
-    "the turn is commanded as a step, as in the paper: no smooth profile that the motors can "
-    "follow ends before touchdown"
+    "the turn is commanded as a step, as in the paper: no smooth turn that the motors can follow "
+    "ends before touchdown"
 )
-
-
-class Profile(ABC):
-    """How a turn runs from 0 to 1 over the unit time s = 0..1."""
-
-    @abstractmethod
-    def position(self, s: FloatArray) -> FloatArray:
-        """Share of the turn completed at `s`."""
-
-    @abstractmethod
-    def rate(self, s: FloatArray) -> FloatArray:
-        """Its first derivative."""
-
-    @abstractmethod
-    def acceleration(self, s: FloatArray) -> FloatArray:
-        """Its second derivative."""
-
-
-class Step(Profile):
-    """The whole turn in one step: the paper's command."""
-
-    def position(self, s: FloatArray) -> FloatArray:
-        """1 throughout."""
-        return np.ones_like(s)
-
-    def rate(self, s: FloatArray) -> FloatArray:
-        """0: the jump itself is left to the feedback."""
-        return np.zeros_like(s)
-
-    def acceleration(self, s: FloatArray) -> FloatArray:
-        """0, as for the rate."""
-        return np.zeros_like(s)
-
-
-class Quintic(Profile):
-    """`10 s^3 - 15 s^4 + 6 s^5`: rest to rest, peak rate 1.875, peak acceleration 5.77."""
-
-    def position(self, s: FloatArray) -> FloatArray:
-        """The polynomial."""
-        return s**3 * (10.0 - 15.0 * s + 6.0 * s**2)
-
-    def rate(self, s: FloatArray) -> FloatArray:
-        """Its first derivative."""
-        return 30.0 * (s * (1.0 - s)) ** 2
-
-    def acceleration(self, s: FloatArray) -> FloatArray:
-        """Its second derivative."""
-        return 60.0 * s * (1.0 - s) * (1.0 - 2.0 * s)
-
-
-@dataclass(frozen=True)
-class SmoothTrapezoid(Profile):
-    """Constant rate between two ramps, without jumps in acceleration.
-
-    Attributes:
-        ramp: share of the time for each ramp, 0..0.5; the peak rate is 1 / (1 - ramp), the peak
-            acceleration 1.5 / (ramp (1 - ramp)).
-    """
-
-    ramp: float
-
-    def position(self, s: FloatArray) -> FloatArray:
-        """The integral of the rate; its second half mirrors the first."""
-        early = np.minimum(s, 1.0 - s)
-        x = np.minimum(early / self.ramp, 1.0)
-        ramped = self.ramp * (x**3 - 0.5 * x**4) + np.maximum(early - self.ramp, 0.0)
-        half = ramped / (1.0 - self.ramp)
-        return np.where(s <= 0.5, half, 1.0 - half)
-
-    def rate(self, s: FloatArray) -> FloatArray:
-        """Cubic ramps, `3 x^2 - 2 x^3`."""
-        x = np.minimum(np.minimum(s, 1.0 - s) / self.ramp, 1.0)
-        return x**2 * (3.0 - 2.0 * x) / (1.0 - self.ramp)
-
-    def acceleration(self, s: FloatArray) -> FloatArray:
-        """The ramps' slope."""
-        x = np.minimum(np.minimum(s, 1.0 - s) / self.ramp, 1.0)
-        slope = 6.0 * x * (1.0 - x) / (self.ramp * (1.0 - self.ramp))
-        return np.where(s <= 0.5, slope, -slope)
 
 
 @dataclass(frozen=True, eq=False)
 class Turn:
     """A turn of the trunk about an axis that is fixed in B and in the world.
 
+    Its angle is `10 s^3 - 15 s^4 + 6 s^5` of the span over the unit time s = 0..1, from rest to
+    rest: the peak rate is 1.875, the peak acceleration 5.77.
+
     Attributes:
         axis: unit vector, shape (3,).
         start, end: angle about it from level [rad].
         duration: [s], from lift-off.
         extendable: whether it may take longer if the wheels need it; a fall does not wait.
+        at_once: whether all of it is commanded at the start, as in the paper: the jump itself is
+            left to the feedback.
         note: how it was changed so that the wheels can follow, one sentence; empty: unchanged.
     """
 
@@ -115,17 +35,26 @@ class Turn:
     start: float
     end: float
     duration: float
-    profile: Profile
     extendable: bool = True
+    at_once: bool = False
     note: str = ""
 
     def angle(self, time: FloatArray) -> FloatArray:
         """Angle at `time` from lift-off [rad]."""
-        return self.start + self.span * self.profile.position(self._unit(time))
+        s = self._unit(time)
+        share = np.ones_like(s) if self.at_once else s**3 * (10.0 - 15.0 * s + 6.0 * s**2)
+        return self.start + self.span * share
 
     def rate(self, time: FloatArray) -> FloatArray:
         """Rate at `time` from lift-off [rad/s]."""
-        return self.span / self.duration * self.profile.rate(self._unit(time))
+        s = self._unit(time)
+        slope = np.zeros_like(s) if self.at_once else 30.0 * (s * (1.0 - s)) ** 2
+        return self.span / self.duration * slope
+
+    def acceleration(self, time: FloatArray) -> FloatArray:
+        """Acceleration at `time` from lift-off [rad/s^2], of a turn not commanded at once."""
+        s = self._unit(time)
+        return self.span / self.duration**2 * (60.0 * s * (1.0 - s) * (1.0 - 2.0 * s))
 
     @property
     def span(self) -> float:
@@ -136,46 +65,36 @@ class Turn:
         return np.clip(np.asarray(time) / self.duration, 0.0, 1.0)
 
 
-NO_TURN = Turn(np.array([0.0, 1.0, 0.0]), 0.0, 0.0, 1.0, Step())
+NO_TURN = Turn(np.array([0.0, 1.0, 0.0]), 0.0, 0.0, 1.0)
 """The trunk stays level."""
 
 
 def fit_turn(turn: Turn, body: Gyrostat, limits: MotorLimits) -> Turn:
-    """Turn with the first profile that leaves the feedback its reserve (`actuation.drive.RESERVE`).
+    """Turn that leaves the feedback its reserve (`actuation.drive.RESERVE`).
 
-    The turn's own profile is tried first, then trapezoids from gentle to short ramps, which trade
-    wheel speed for torque. If none suffices in the given time, the turn takes longer; if it may
-    not, it is commanded as the paper's step, which lets the feedback use all that the motors have.
+    If the wheels cannot make it in the given time, it takes longer; if it may not, it is commanded
+    as the paper's step, which lets the feedback use all that the motors have.
     """
     usable = limits.reserved()
     if turn.span == 0.0 or utilisation(turn, body, usable) <= 1.0:
         return turn
-    ramps = np.linspace(0.45, 0.1, 15)
-    options = [replace(turn, profile=SmoothTrapezoid(float(ramp))) for ramp in ramps]
-    for option in options:
-        if utilisation(option, body, usable) <= 1.0:
-            return replace(option, note=_TRAPEZOID_NOTE)
     if not turn.extendable:
-        return replace(turn, profile=Step(), note=_STEP_NOTE)
-    stretched = []
-    for option in (turn, *options):
-        # The shortest time that keeps the limits, by bisection.
-        too_short, enough = option.duration, 2.0 * option.duration
-        while utilisation(replace(option, duration=enough), body, usable) > 1.0:
-            too_short, enough = enough, 2.0 * enough
-        for _ in range(30):
-            middle = 0.5 * (too_short + enough)
-            if utilisation(replace(option, duration=middle), body, usable) > 1.0:
-                too_short = middle
-            else:
-                enough = middle
-        stretched.append(replace(option, duration=enough))
-    shortest = min(stretched, key=lambda option: option.duration)
+        return replace(turn, at_once=True, note=_STEP_NOTE)
+    # The shortest time that keeps the limits, by bisection.
+    too_short, enough = turn.duration, 2.0 * turn.duration
+    while utilisation(replace(turn, duration=enough), body, usable) > 1.0:
+        too_short, enough = enough, 2.0 * enough
+    for _ in range(30):
+        middle = 0.5 * (too_short + enough)
+        if utilisation(replace(turn, duration=middle), body, usable) > 1.0:
+            too_short = middle
+        else:
+            enough = middle
     note = (
-        f"the turn takes {shortest.duration:.3g} s instead of the {turn.duration:.3g} s asked "
-        f"for: the wheels cannot turn the trunk faster"
+        f"the turn takes {enough:.3g} s instead of the {turn.duration:.3g} s asked for: the wheels "
+        "cannot turn the trunk faster"
     )
-    return replace(shortest, note=note)
+    return replace(turn, duration=enough, note=note)
 
 
 def utilisation(turn: Turn, body: Gyrostat, limits: MotorLimits) -> float:
@@ -184,9 +103,8 @@ def utilisation(turn: Turn, body: Gyrostat, limits: MotorLimits) -> float:
     A gyrostat with no momentum has `I_tot w + h A W = 0` and `J w_dot = -g A tau`, g the reaction
     (see `Gyrostat`). The pseudo-inverse leaves out an axis that the wheels do not reach.
     """
-    s = np.linspace(0.0, 1.0, 401)
-    rate = turn.span / turn.duration * turn.profile.rate(s)
-    acceleration = turn.span / turn.duration**2 * turn.profile.acceleration(s)
+    time = turn.duration * np.linspace(0.0, 1.0, 401)
+    rate, acceleration = turn.rate(time), turn.acceleration(time)
     momentum = body.reaction * body.sharing @ _momentum_per_rate(body.inertia, turn.axis)
     speed = np.outer(momentum / body.spin_inertia, rate)
     torque = np.outer(

@@ -1,6 +1,6 @@
 """Builds the worlds that fly a maneuver: start, law, legs and wheels of one robot."""
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import mujoco
 import numpy as np
@@ -19,6 +19,7 @@ from ocs_design.export.physics import (
     standing_torques,
 )
 from ocs_design.jumping.jump import IN_FLIGHT, JumpPlan
+from ocs_design.requirement.boundary import NO_PUSH, UPRIGHT, Y
 from ocs_design.requirement.froude import FroudeScale
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.pivoted import HOLD_TIME_RATIO, Pivoted
@@ -27,9 +28,9 @@ from ocs_design.requirement.vocabulary import CONTROL_PERIOD
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.desaturation import Desaturation
 from ocs_design.simulation.engine import Engine
-from ocs_design.simulation.launch import flight_time, launch, place
+from ocs_design.simulation.launch import flight_time, place, start_height, turn_of
 from ocs_design.simulation.motor_limits import MotorLimits
-from ocs_design.simulation.reference import Profile, Quintic, fit_turn
+from ocs_design.simulation.reference import NO_TURN, fit_turn
 from ocs_design.simulation.scene import (
     JUMP_STEP,
     Sensor,
@@ -55,7 +56,7 @@ class Options:
     Attributes:
         allocation: of the torque to the wheels.
         gains: of the wheel law; None: `wheel_gains` of the robot.
-        drop_profile: how a dropped robot is turned to level; `Step()` is the paper's command.
+        drop_at_once: whether a dropped robot is commanded to level in one step, as in the paper.
         hold: steps of 1 ms per control step.
         desaturate: whether the wheels are braked while the robot stands.
         threads: of the physics; None: one per processor.
@@ -65,7 +66,7 @@ class Options:
 
     allocation: Allocation = Allocation.PSEUDO_INVERSE
     gains: Gains | None = None
-    drop_profile: Profile = field(default_factory=Quintic)
+    drop_at_once: bool = False
     hold: int = 5
     desaturate: bool = False
     threads: int | None = None
@@ -135,12 +136,18 @@ class WorldBuilder:
                 gravity_moment=pivoted.gravity_moment,
                 edge=pivoted.axis,
             )
-        start = launch(maneuver, standing, self._options.drop_profile)
+        boundary = maneuver.boundary(standing)
+        turn = turn_of(maneuver, boundary, drop_at_once=self._options.drop_at_once)
+        counted = boundary.axis if maneuver.counts_turns else Y
         if pivoted is not None and trajectory is None:
             # Without a plan, or without wheels, there is nothing to spin up and brake.
-            start = replace(start, rate=pivoted.rate_after_disturbance)
-        start = start.undisturbed if level else start
-        flight = flight_time(maneuver, start, standing)
+            boundary = replace(boundary, rate=pivoted.rate_after_disturbance)
+        if level:
+            boundary = replace(
+                boundary, attitude=UPRIGHT, rate=np.zeros(3), wheel_speed=0.0, push=NO_PUSH
+            )
+            turn = NO_TURN
+        flight = flight_time(maneuver, boundary, standing)
         # Time simulated after touchdown: one second for Solo12 on Earth.
         settling = FroudeScale.of(self._robot).time(maneuver.gravity or STANDARD_GRAVITY)
         weight = float(model.body_mass.sum()) * maneuver.gravity
@@ -150,9 +157,16 @@ class WorldBuilder:
         if pivoted is not None:
             standing, duration = -np.inf, (1.0 + HOLD_TIME_RATIO) * pivoted.duration
 
-        turn, law, desaturation = start.turn, WheelLaw.off(len(device.modules)), None
+        law, desaturation = WheelLaw.off(len(device.modules)), None
         if active:
-            law = self._wheel_law(body)
+            # The wheels also hold the attitude that one or two legs cannot.
+            law = WheelLaw.of(
+                body,
+                self._gains,
+                self._limits,
+                self._options.allocation,
+                balances=0 < len(self._robot.legs) < STEADY_LEGS,
+            )
             turn = fit_turn(turn, body, self._limits) if trajectory is None else turn
             if self._options.desaturate:
                 desaturation = Desaturation.of(
@@ -160,14 +174,15 @@ class WorldBuilder:
                 )
         turn_note = turn.note if trajectory is None else trajectory.note
 
-        takes_off = bool(start.velocity.any())
+        forward, up = maneuver.takeoff
+        height, velocity = start_height(maneuver, boundary, standing), np.array([forward, 0.0, up])
         if legs is not None:
             # At rest on its feet: the legs produce the flight.
-            start = replace(start, height=standing, velocity=np.zeros(3))
-        place(self._robot, model, data, start, standing)
+            height, velocity = standing, np.zeros(3)
+        place(self._robot, model, data, replace(boundary, height=height), velocity)
         address = addresses(model, device)
         if active:
-            data.qvel[list(address.wheels)] = start.wheel_speed
+            data.qvel[list(address.wheels)] = boundary.wheel_speed
         return World(
             model=model,
             qpos=data.qpos.copy(),
@@ -181,13 +196,13 @@ class WorldBuilder:
             law=law,
             limits=self._limits if active and self._limits.is_finite else None,
             turn=turn,
-            counted=start.counted,
+            counted=counted,
             trajectory=trajectory,
             legs=trot or legs,
-            pushes=(start.push,),
+            pushes=(boundary.push,),
             standing_height=standing,
             stands=stands,
-            takes_off=takes_off,
+            takes_off=any(maneuver.takeoff),
             # A robot shoved on the ground does not fly: the whole simulated time counts.
             flight_time=flight or settling,
             duration=duration,
@@ -213,13 +228,6 @@ class WorldBuilder:
         torques = standing_torques(model, data, self._robot)
         support[drives] = torques / model.actuator_gainprm[drives, 0]
         return ctrl, support
-
-    def _wheel_law(self, body: Gyrostat) -> WheelLaw:
-        """Law of driven wheels, which also hold the attitude that one or two legs cannot."""
-        balances = 0 < len(self._robot.legs) < STEADY_LEGS
-        return WheelLaw.of(
-            body, self._gains, self._limits, self._options.allocation, balances=balances
-        )
 
 
 def wheel_gains(robot: Robot) -> Gains:

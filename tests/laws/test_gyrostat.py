@@ -11,7 +11,6 @@ from wheels import EC45, PAPER_WHEEL, driven_device, geared, motor, paper_device
 from ocs_design.requirement.turns import Drop
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.simulation.motor_limits import USED_SHARE, MotorLimits
-from ocs_design.simulation.reference import Step
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.simulate import simulate
 from ocs_design.simulation.wheel_law import Allocation, Gains, WheelLaw
@@ -118,7 +117,7 @@ def test_a_saturated_motor_follows_its_voltage_line():
     """
     drive = motor(no_load_speed=650.4, stall_torque=1.4566)
     world = floating(device=paper_device(incidence=0.0, drive=drive), duration=0.1)
-    far = replace(world.turn, start=0.0, end=3.0, profile=Step())
+    far = replace(world.turn, start=0.0, end=3.0, at_once=True)
     law = WheelLaw.of(world.body, Gains(1e5, 0.0), MotorLimits.of(drive), Allocation.PSEUDO_INVERSE)
     recording = simulate([replace(world, law=law, turn=far)], hold=1)
     speed = -recording.wheel_speed[:, 0, 0]

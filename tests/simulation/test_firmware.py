@@ -18,7 +18,6 @@ from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.requirement.turns import Flip
 from ocs_design.simulation.desaturation import WheelBrake
 from ocs_design.simulation.firmware import targets_of, write_controller
-from ocs_design.simulation.reference import Quintic
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.simulate import simulate
 from ocs_design.simulation.world_builder import Options, WorldBuilder
@@ -36,7 +35,7 @@ def worlds_of(solo12, device, *, desaturate):
     for maneuver in default_maneuvers(solo12):
         world = builder.flight(maneuver, Wheels.ACTIVE)
         if world.turn.span:
-            turn = replace(world.turn, profile=Quintic())
+            turn = replace(world.turn, at_once=False)
             plan = from_rest(world.body, turn, samples=401)
             if isinstance(maneuver, Flip):
                 # Feedback of the heading too, with gains that vary along the plan.

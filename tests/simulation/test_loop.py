@@ -10,7 +10,6 @@ from wheels import driven_device
 
 from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.simulation.loop import level_margins, loop_margins, plan_margins
-from ocs_design.simulation.reference import Quintic
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.world_builder import WorldBuilder
 from ocs_design.sizing.trajectory.plans import drive_line_of
@@ -72,7 +71,7 @@ def test_the_closed_loop_is_stable_up_to_the_delay_margin(control, gains, rate):
 
 def test_a_regulated_plan_has_the_phase_margin_of_an_lqr(world):
     """At least 60 deg at the end (Anderson and Moore, Optimal Control, section 5.4)."""
-    turn = replace(world.turn, axis=np.array([0.0, 1.0, 0.0]), end=1.0, profile=Quintic())
+    turn = replace(world.turn, axis=np.array([0.0, 1.0, 0.0]), end=1.0, at_once=False)
     plan = from_rest(world.body, turn, samples=401)
     gains = tracking_gains(world.body, drive_line_of(driven_device()), plan)
     settled = replace(plan, gains=np.broadcast_to(gains[0], gains.shape))

@@ -9,7 +9,6 @@ from subsets import slow_subset
 from wheels import motor, paper_device, paper_maneuvers, scaled_device
 
 from ocs_design.robot.reader import read_robot
-from ocs_design.simulation.reference import Step
 from ocs_design.simulation.scenario import Flights, Options, run_scenarios
 from ocs_design.simulation.wheel_law import Allocation
 
@@ -38,7 +37,7 @@ def test_after_a_jump_at_4_5_m_s_the_bare_robot_turns_over(runs):
 
 
 def test_the_papers_step_needs_the_torque_of_the_theory(solo12, maneuvers):
-    options = Options(drop_profile=Step())
+    options = Options(drop_at_once=True)
     run, _ = run_scenarios(Flights(solo12, paper_device(), maneuvers[1:2], options=options))
     assert run.passed is True, run.reason
     assert run.metrics.peak_wheel_torque == pytest.approx(1.06, rel=0.1)

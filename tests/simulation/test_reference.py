@@ -1,4 +1,4 @@
-"""Turn profiles within the motor's limits, and tracking of trajectories with their torque."""
+"""Turns within the motor's limits, and tracking of trajectories with their torque."""
 
 from dataclasses import replace
 
@@ -14,14 +14,7 @@ from ocs_design.device.layout import module_axes
 from ocs_design.requirement.turns import Drop
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.simulation.motor_limits import MotorLimits
-from ocs_design.simulation.reference import (
-    Quintic,
-    SmoothTrapezoid,
-    Step,
-    Turn,
-    fit_turn,
-    utilisation,
-)
+from ocs_design.simulation.reference import Turn, fit_turn, utilisation
 from ocs_design.simulation.scenario import Flights, run_scenarios
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.schedule import track
@@ -32,37 +25,34 @@ from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 
 PITCH = np.array([0.0, 1.0, 0.0])
 BODY = Gyrostat(np.diag([0.03, 0.0535, 0.068]), module_axes(np.radians(40.0)), 1e-4)
-FLIP = Turn(PITCH, 0.0, -2.0 * np.pi, 2.0, Quintic())
-SMOOTH = [Quintic(), SmoothTrapezoid(0.1), SmoothTrapezoid(0.3), SmoothTrapezoid(0.5)]
+FLIP = Turn(PITCH, 0.0, -2.0 * np.pi, 2.0)
 
 
-@pytest.mark.parametrize("profile", SMOOTH)
-def test_profiles_run_from_rest_to_rest_and_have_their_derivatives(profile):
-    ends = np.array([0.0, 1.0])
-    np.testing.assert_allclose(profile.position(ends), [0.0, 1.0], atol=1e-12)
-    np.testing.assert_allclose(profile.rate(ends), 0.0, atol=1e-12)
-    np.testing.assert_allclose(profile.acceleration(ends), 0.0, atol=1e-12)
-    s, h = np.linspace(0.01, 0.99, 97), 1e-6
-    slope = (profile.position(s + h) - profile.position(s - h)) / (2 * h)
-    np.testing.assert_allclose(profile.rate(s), slope, atol=1e-7)
-    slope = (profile.rate(s + h) - profile.rate(s - h)) / (2 * h)
-    np.testing.assert_allclose(profile.acceleration(s), slope, atol=1e-3)
+def test_a_turn_runs_from_rest_to_rest_with_its_derivatives():
+    ends = np.array([0.0, 2.0])
+    np.testing.assert_allclose(FLIP.angle(ends), [0.0, -2.0 * np.pi], atol=1e-12)
+    np.testing.assert_allclose(FLIP.rate(ends), 0.0, atol=1e-12)
+    np.testing.assert_allclose(FLIP.acceleration(ends), 0.0, atol=1e-12)
+    t, h = np.linspace(0.02, 1.98, 97), 1e-6
+    slope = (FLIP.angle(t + h) - FLIP.angle(t - h)) / (2 * h)
+    np.testing.assert_allclose(FLIP.rate(t), slope, atol=1e-7)
+    slope = (FLIP.rate(t + h) - FLIP.rate(t - h)) / (2 * h)
+    np.testing.assert_allclose(FLIP.acceleration(t), slope, atol=1e-3)
 
 
 def test_peaks_are_as_documented():
-    s = np.linspace(0.0, 1.0, 100_001)
-    assert Quintic().rate(s).max() == pytest.approx(1.875)
-    assert Quintic().acceleration(s).max() == pytest.approx(10.0 / np.sqrt(3.0))
-    trapezoid = SmoothTrapezoid(0.2)
-    assert trapezoid.rate(s).max() == pytest.approx(1.0 / 0.8)
-    assert trapezoid.acceleration(s).max() == pytest.approx(1.5 / (0.2 * 0.8))
+    turn, time = Turn(PITCH, 0.0, 1.0, 1.0), np.linspace(0.0, 1.0, 100_001)
+    assert turn.rate(time).max() == pytest.approx(1.875)
+    assert turn.acceleration(time).max() == pytest.approx(10.0 / np.sqrt(3.0))
 
 
 def test_a_turn_holds_its_ends_before_and_after():
-    turn = Turn(PITCH, 0.5, 0.0, 0.4, Quintic())
+    turn = Turn(PITCH, 0.5, 0.0, 0.4)
     np.testing.assert_allclose(turn.angle(np.array([0.0, 0.2, 0.4, 9.0])), [0.5, 0.25, 0.0, 0.0])
     np.testing.assert_allclose(turn.rate(np.array([0.0, 9.0])), 0.0)
-    np.testing.assert_allclose(replace(turn, profile=Step()).angle(np.array([0.0])), 0.0)
+    at_once = replace(turn, at_once=True)
+    np.testing.assert_allclose(at_once.angle(np.array([0.0])), 0.0)
+    np.testing.assert_allclose(at_once.rate(np.array([0.1])), 0.0)
 
 
 LOPSIDED = np.array([[0.03, 0.004, 0.003], [0.004, 0.0535, -0.006], [0.003, -0.006, 0.068]])
@@ -85,17 +75,7 @@ def test_a_feasible_turn_stays_as_it_is():
     assert fitted.note == ""
 
 
-def test_a_wheel_a_little_too_slow_gets_a_flatter_profile():
-    limits = MotorLimits(2000.0, 0.0, np.inf)
-    assert utilisation(FLIP, BODY, limits) > 1.0
-    fitted = fit_turn(FLIP, BODY, limits)
-    assert isinstance(fitted.profile, SmoothTrapezoid)
-    assert fitted.duration == FLIP.duration
-    assert utilisation(fitted, BODY, limits) <= RESERVE
-    assert "trapezoid" in fitted.note
-
-
-def test_a_wheel_far_too_slow_gets_more_time_with_a_note():
+def test_a_wheel_that_is_too_slow_gets_more_time_with_a_note():
     limits = MotorLimits(700.0, 350.0, 1.0)
     fitted = fit_turn(FLIP, BODY, limits)
     assert utilisation(fitted, BODY, limits) == pytest.approx(RESERVE, rel=1e-6)
@@ -105,9 +85,9 @@ def test_a_wheel_far_too_slow_gets_more_time_with_a_note():
 
 
 def test_a_fall_is_not_extended():
-    drop = Turn(PITCH, 0.5, 0.0, 0.385, Quintic(), extendable=False)
+    drop = Turn(PITCH, 0.5, 0.0, 0.385, extendable=False)
     fitted = fit_turn(drop, BODY, MotorLimits(300.0, 0.0, np.inf))
-    assert isinstance(fitted.profile, Step)
+    assert fitted.at_once
     assert fitted.duration == 0.385
     assert "step" in fitted.note
 
@@ -135,7 +115,7 @@ def law(builder):
 def planned(builder, maneuver):
     """The quintic turn of a maneuver with its exact feed-forward torque."""
     world = builder.flight(maneuver, Wheels.ACTIVE)
-    return from_rest(world.body, replace(world.turn, profile=Quintic()))
+    return from_rest(world.body, replace(world.turn, at_once=False))
 
 
 def until_landing(builder, maneuver, trajectory):

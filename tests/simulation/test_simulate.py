@@ -11,7 +11,6 @@ from wheels import paper_device, paper_maneuvers
 
 from ocs_design.requirement.boundary import Push
 from ocs_design.simulation.batch import Recording
-from ocs_design.simulation.reference import Quintic
 from ocs_design.simulation.scenario import Flights, Options, run_scenarios
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.simulate import poses_of, simulate
@@ -27,7 +26,7 @@ def worlds(solo12, builder):
         builder.flight(drop, Wheels.BRAKED, level=True),
         builder.flight(jump, Wheels.ACTIVE),
     ]
-    turn = replace(flights[0].turn, profile=Quintic())
+    turn = replace(flights[0].turn, at_once=False)
     plan = from_rest(flights[0].body, turn, samples=401)
     flights.append(builder.flight(drop, Wheels.ACTIVE, plan))
     durations = (0.5, 0.62, 0.31, 0.45, 0.62, 0.48)
