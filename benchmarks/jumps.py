@@ -12,11 +12,15 @@ import sys
 import time
 from collections.abc import Iterator
 from dataclasses import dataclass
+from pathlib import Path
 
 import mujoco
 import numpy as np
-from batch import paper_device
 from paired import ROBOTS
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
+
+from wheels import paper_device
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.jumping.jump import JumpPlan, jump_of

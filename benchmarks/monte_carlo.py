@@ -20,9 +20,15 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
-from batch import interleaved, open_loop_rate, paper_device, spread
+import mujoco
+import numpy as np
 from distributed import LocalCluster
+from mujoco.rollout import Rollout
 from paired import SOLO12
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
+
+from wheels import motor, paper_device
 
 from ocs_design.monte_carlo.campaign import make_campaign
 from ocs_design.monte_carlo.outcomes import blocks_of
@@ -34,17 +40,16 @@ from ocs_design.requirement.uncertainty import UncertaintySection
 from ocs_design.robot.reader import read_robot
 from ocs_design.simulation.scenario import Flights
 from ocs_design.simulation.simulate import simulate
+from ocs_design.simulation.world import start_states
 from ocs_design.workflows.flying import read_flights
 
-WORLDS, SECONDS = 1024, 0.2
+WORLDS, SECONDS, ROUNDS = 1024, 0.2, 5
 DROPS, SHORT = 10_000, 0.01
 
 
 def drops(until=None):
     """A campaign of drops of Solo12 with the paper's wheels on a motor of some power."""
-    robot, device = read_robot(SOLO12), paper_device()
-    motor = replace(device.motor, torque_limit=1.0, stall_torque=1.5, no_load_speed=2000.0)
-    device = replace(device, motor=motor)
+    robot, device = read_robot(SOLO12), paper_device(drive=motor(2000.0, 1.5, 1.0))
     campaign = make_campaign(
         Flights(robot, device, default_maneuvers(robot)[1:2]),
         can_stand=[True],
@@ -54,6 +59,29 @@ def drops(until=None):
     (flight,) = campaign.flights
     world = flight.world if until is None else replace(flight.world, duration=until)
     return replace(campaign, flights=(replace(flight, world=world),))
+
+
+def open_loop_rate(worlds, threads):
+    """Physics steps per second of one `rollout` of all worlds."""
+    steps = round(SECONDS / worlds[0].model.opt.timestep)
+    control = np.repeat(np.stack([w.ctrl for w in worlds])[:, None], steps, axis=1)
+    models = [w.model for w in worlds]
+    data = [mujoco.MjData(models[0]) for _ in range(threads)]
+    with Rollout(nthread=threads if threads > 1 else 0) as pool:
+        start = time.perf_counter()
+        pool.rollout(models, data, start_states(worlds), control)
+        return len(worlds) * steps / (time.perf_counter() - start)
+
+
+def interleaved(cases):
+    """Each case once a round, so that other load on the machine meets all alike."""
+    rounds = [{name: case() for name, case in cases.items()} for _ in range(ROUNDS)]
+    return {name: np.array([measured[name] for measured in rounds]) for name in cases}
+
+
+def spread(ratios):
+    """Median and range of the rounds."""
+    return f"{np.median(ratios):.2f} ({ratios.min():.2f} to {ratios.max():.2f})"
 
 
 def speed():
