@@ -13,11 +13,10 @@ import numpy as np
 from ocs_design.common.errors import OcsError
 from ocs_design.common.files import TextKind, safe_name, to_json
 from ocs_design.device.answers import RESULT_FILE, MonteCarloRecord
-from ocs_design.device.layout import Layout
 from ocs_design.export.folder import clear_leftovers, output_error, staging_beside
 from ocs_design.export.physics import STEP
 from ocs_design.monte_carlo.outcomes import METRICS, Outcomes, code_of, write_tables
-from ocs_design.monte_carlo.uncertainty import Sample, Uncertainty, quantities, sampled_world
+from ocs_design.monte_carlo.uncertainty import Sample, Uncertainty, sampled_world
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.simulation.engine import Engine
 from ocs_design.simulation.imperfections import AirDrag, air_drag
@@ -184,9 +183,7 @@ def _fly_batch(
             figures = (getattr(flight_metrics, name) for name in METRICS)
             metrics[row] = [np.nan if figure is None else float(figure) for figure in figures]
     values = np.stack([sample.values for sample in samples])
-    uncertainty = campaign.uncertainty
-    names = quantities(uncertainty.layout, one_stops=uncertainty.detection is not None)
-    return Outcomes(np.array(indices), values, metrics, codes, names)
+    return Outcomes(np.array(indices), values, metrics, codes, campaign.uncertainty.names)
 
 
 SCHEMA_VERSION = 1
@@ -215,20 +212,20 @@ class Case:
     values: Mapping[str, float]
     metrics: Mapping[str, Mapping[str, float | None]]
 
-    def to_sample(self, layout: Layout, detection: float | None = None) -> Sample:
-        """The sample itself, for a device with this layout; `detection`: see `Uncertainty`.
+    def to_sample(self, uncertainty: Uncertainty) -> Sample:
+        """The sample itself, as if drawn from this uncertainty.
 
         Raises:
             OcsError: it lacks a sampled quantity.
         """
-        names = quantities(layout, one_stops=detection is not None)
+        names = uncertainty.names
         if missing := [name for name in names if name not in self.values]:
             raise OcsError(
                 f"case of sample {self.sample}: has no value of {', '.join(missing)}",
                 hint="it comes from another version; draw it again with --seed and --sample",
             )
         values = np.array([self.values[name] for name in names])
-        return Sample(self.seed, self.sample, layout, values, detection)
+        return Sample(self.seed, self.sample, uncertainty, values)
 
 
 def case_of(campaign: Campaign, outcomes: Outcomes, row: int, scenario: int, design: str) -> Case:

@@ -74,6 +74,11 @@ class Uncertainty:
         complete = complete_uncertainty(specified, standing_height(robot), device.motor)
         return cls({key: getattr(complete, key) for key in KEYS}, device.layout, detection)
 
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of all sampled numbers, in order."""
+        return quantities(self.layout, one_stops=self.detection is not None)
+
     def written(self) -> Mapping[str, str]:
         """Distributions as text by key (SI); different sets have different texts."""
         texts = {key: spread.written() for key, spread in self.spreads.items()}
@@ -93,52 +98,47 @@ class Sample:
 
     Attributes:
         seed, index: determine the values, independently of other samples.
-        layout: of the device.
-        values: SI, in the order of `quantities`, shape (numbers,).
-        detection: see `Uncertainty`.
+        uncertainty: that it was drawn from.
+        values: SI, in the order of `Uncertainty.names`, shape (numbers,).
     """
 
     seed: int
     index: int
-    layout: Layout
+    uncertainty: Uncertainty
     values: FloatArray
-    detection: float | None = None
 
     @classmethod
     def draw(cls, uncertainty: Uncertainty, seed: int, index: int) -> "Sample":
         """Sample `index` of `seed`, from its own counter-based generator."""
-        names, detection = quantities(uncertainty.layout), uncertainty.detection
+        names = quantities(uncertainty.layout)
         generator = np.random.Generator(np.random.Philox(_sequence(seed, index)))
         values = [
             uncertainty.spreads[key_of(name)].at(part)
             for name, part in zip(names, generator.random(len(names)).tolist(), strict=True)
         ]
-        if detection is not None:
+        if uncertainty.detection is not None:
             which, when = generator.random(len(STOP_QUANTITIES)).tolist()
             values += [1.0 + int(which * len(uncertainty.layout)), when]
-        return cls(seed, index, uncertainty.layout, np.array(values), detection)
+        return cls(seed, index, uncertainty, np.array(values))
 
     @property
     def by_name(self) -> Mapping[str, float]:
         """The values by name."""
-        names = quantities(self.layout, one_stops=self.detection is not None)
-        return dict(zip(names, self.values.tolist(), strict=True))
+        return dict(zip(self.uncertainty.names, self.values.tolist(), strict=True))
 
     def stopped(self, world: World) -> StoppedDrive | None:
         """The drive that stops in a flight; None: all run."""
-        if self.detection is None:
+        detection = self.uncertainty.detection
+        if detection is None:
             return None
         wheel, instant = int(self.only(STOPPED)) - 1, self.only(SHARE) * world.flight_time
-        return StoppedDrive(wheel, instant, self.detection)
+        return StoppedDrive(wheel, instant, detection)
 
     @cached_property
     def _by_key(self) -> Mapping[str, FloatArray]:
         """All parts of each key."""
-        counts = {key: len(parts_of(key, self.layout.names)) for key in KEYS}
-        if self.detection is not None:
-            counts |= dict.fromkeys(STOP_QUANTITIES, 1)
-        parts = np.split(self.values, np.cumsum([*counts.values()])[:-1])
-        return dict(zip(counts, parts, strict=True))
+        keys = np.array([key_of(name) for name in self.uncertainty.names])
+        return {key: self.values[keys == key] for key in keys.tolist()}
 
     def of(self, key: str) -> FloatArray:
         """All parts of a key of `[reality]`, shape (parts,)."""
@@ -192,7 +192,10 @@ def sampled_world(
     model.body_inertia[robot_bodies] *= 1.0 + sample.only("mass_error")
     base = quaternions.matrix(world.chain.end)
     _alter_trunk(model, world.addresses.trunk, base, sample)
-    feet, errors = base @ sample.layout.feet(world.body.axes), sample.of("incidence_error")
+    feet, errors = (
+        base @ sample.uncertainty.layout.feet(world.body.axes),
+        sample.of("incidence_error"),
+    )
     for body, foot, error in zip(world.addresses.flywheels, feet.T, errors, strict=True):
         turn = quaternions.from_axis_angle(foot, error)
         model.body_quat[body] = quaternions.product(turn, model.body_quat[body])

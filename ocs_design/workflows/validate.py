@@ -238,7 +238,7 @@ def validate_design(
         campaign = flights.campaign(runs)
         to_sample = campaign.sample(sample or 0)
         if case is not None:
-            to_sample = case.to_sample(flights.device.layout, flights.detection)
+            to_sample = case.to_sample(campaign.uncertainty)
         with steps.step(f"fly sample {to_sample.index} of seed {to_sample.seed}"):
             runs = replayed(campaign, to_sample, pose_rate=pose_rate)
         answer = replace(

@@ -92,7 +92,7 @@ def test_every_wheel_has_errors_of_its_own(solo12, name, tmp_path):
     outcomes.save(tmp_path / "block.npz")
     assert_same(Outcomes.load(tmp_path / "block.npz"), outcomes)
     case = read_case(write_case(case_of(campaign, outcomes, 1, 0, "hash"), tmp_path))
-    (run,) = replayed(campaign, case.to_sample(layout))
+    (run,) = replayed(campaign, case.to_sample(campaign.uncertainty))
     assert run.metrics == metrics_of(outcomes, 1, 0)
     outcome = certificate(SequentialTest(0.5), campaign, outcomes)
     assert outcome.whole == outcomes.all_passed[: outcome.samples].sum()
@@ -108,7 +108,7 @@ def test_samples_and_seeds_differ(campaign, outcomes):
 def test_a_case_has_a_safe_file_name_and_belongs_to_its_layout(campaign, outcomes, tmp_path):
     case = replace(case_of(campaign, outcomes, 0, 0, "hash"), scenario="../up and away")
     with pytest.raises(OcsError, match=r"has no value of incidence_error\.1, "):
-        case.to_sample(Layout(LayoutName.TRIAD))
+        case.to_sample(replace(campaign.uncertainty, layout=Layout(LayoutName.TRIAD)))
     assert write_case(case, tmp_path).parent == tmp_path
     assert [path.name for path in tmp_path.iterdir()] == ["up_and_away-0.json"]
 
