@@ -109,10 +109,6 @@ class BeltStage:
         wrap = math.pi - 2.0 * self._slope()
         return int(min(self.motor_teeth, self.wheel_teeth) * wrap / (2.0 * math.pi))
 
-    def wheel_speed_max(self, belt_speed_max: float) -> float:
-        """Wheel speed at which the belt runs at `belt_speed_max` [rad/s]."""
-        return belt_speed_max / self.wheel_radius
-
     @property
     def room(self) -> GearRoom:
         """Space that the stage takes, the motor's axis beside the wheel's, without bearings.
@@ -246,7 +242,7 @@ class GearSheet:
                 ratio=belt.ratio,
                 mass=mass,
                 inertia=belt.inertia,
-                wheel_speed_max=belt.wheel_speed_max(_given(self.belt_speed_max_m_s)),
+                wheel_speed_max=_given(self.belt_speed_max_m_s) / belt.wheel_radius,
                 torque_max=belt.torque_max,
                 room=replace(belt.room, center=belt.room.center * belt.mass / mass),
             )
@@ -274,24 +270,12 @@ def _given(figure: float | None) -> float:
 
 _NEEDED: Mapping[GearKind, tuple[str, ...]] = {
     GearKind.FIXED: (
-        "ratios",
-        "efficiency",
-        "mass_kg",
-        "inertia_kg_m2",
-        "inertia_at",
-        "torque_max_nm",
+        *("ratios", "efficiency", "mass_kg", "inertia_kg_m2", "inertia_at", "torque_max_nm"),
         "motor_speed_max_rpm",
     ),
     GearKind.BELT: (
-        "teeth",
-        "efficiency",
-        "mass_kg",
-        "pitch_m",
-        "width_m",
-        "belt_mass_kg_per_m",
-        "working_tension_n",
-        "belt_speed_max_m_s",
-        "pulley_density_kg_m3",
+        *("teeth", "efficiency", "mass_kg", "pitch_m", "width_m", "belt_mass_kg_per_m"),
+        *("working_tension_n", "belt_speed_max_m_s", "pulley_density_kg_m3"),
     ),
 }
 

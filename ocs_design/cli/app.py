@@ -24,6 +24,7 @@ from ocs_design.cli.options import (
     with_options,
 )
 from ocs_design.cli.output import Output, with_output
+from ocs_design.common.errors import UsageError
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -192,8 +193,6 @@ def _design(
     steps = output.steps
     if specification.ocs.layout == ALL_LAYOUTS:
         if out is not None:
-            from ocs_design.common.errors import UsageError
-
             raise UsageError(
                 "a comparison of layouts writes no folder",
                 hint="leave out -o, or choose one layout, as in --layout triad",

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated, TypeAlias
 import typer
 
 from ocs_design.cli import completion
+from ocs_design.common.errors import UsageError
 
 if TYPE_CHECKING:
     from ocs_design.requirement.specification import Specification
@@ -63,14 +64,12 @@ def option(
     return typer.Option(*names.split(), metavar=metavar, help=help_text, autocompletion=complete)
 
 
-def _text(metavar: str, help_text: str, complete: Callable[..., list[str]] | None = None) -> object:
+def _text(metavar: str, help_text: str, complete: completion.Completer | None = None) -> object:
     """An option with one text."""
     return Annotated[Text, option("", metavar, help_text, complete)]
 
 
-def _texts(
-    metavar: str, help_text: str, complete: Callable[..., list[str]] | None = None
-) -> object:
+def _texts(metavar: str, help_text: str, complete: completion.Completer | None = None) -> object:
     """A repeatable option with one text each time."""
     return Annotated[Texts, option("", metavar, help_text, complete)]
 
@@ -352,7 +351,6 @@ def specified_by_command(context: typer.Context) -> "Specification":
         OcsError: the file or an option cannot be read, or an option has no effect.
     """
     # Not for `--help`: reading specifications needs NumPy.
-    from ocs_design.common.errors import UsageError
     from ocs_design.requirement.reading import read_specification
     from ocs_design.requirement.specification import (
         Specification,
@@ -434,8 +432,6 @@ def package_paths_of_command(context: typer.Context) -> Mapping[str, Path]:
     Raises:
         UsageError: a text is not such a pair.
     """
-    from ocs_design.common.errors import UsageError
-
     folders = {}
     for text in context.params["package_path"] or ():
         name, separator, folder = text.partition("=")

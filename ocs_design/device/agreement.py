@@ -146,9 +146,8 @@ def _selection_figures(design: OcsDesign) -> Iterator[_Figure]:
     yield _Figure("ocs.motor.gear_ratio", motor.gear_ratio, best.gear_ratio, "", first)
     yield _Figure("ocs.flywheel.material", design.ocs.flywheel.material, best.material, "", first)
     voltage = "selection.bus_voltage is"
-    yield _Figure(
-        "ocs.motor.bus_voltage", motor.bus_voltage or 0.0, selection.bus_voltage, "V", voltage
-    )
+    bus_voltage = motor.bus_voltage or 0.0
+    yield _Figure("ocs.motor.bus_voltage", bus_voltage, selection.bus_voltage, "V", voltage)
     if design.supply is not None:
         yield _Figure("supply.voltage", design.supply.voltage, selection.bus_voltage, "V", voltage)
 
@@ -202,13 +201,11 @@ def _wheel_figures(device: Device) -> Iterator[_Figure]:
         yield _Figure("ocs.flywheel.web.holes", *holes, "", sizes)
     rim = wheel.inner_radius, wheel.outer_radius, wheel.height, wheel.density
     body = wheel_body(*rim, hub, cuts=wheel.cuts, web_density=web_density)
-    transverse, unit = body.transverse_inertia, "kg m^2"
-    spin = body.axial_inertia + motor.rotor_inertia
+    spin, unit = body.axial_inertia + motor.rotor_inertia, "kg m^2"
+    stated, transverse = wheel.transverse_inertia, body.transverse_inertia
     yield _Figure("ocs.flywheel.mass", wheel.mass, body.mass, "kg", sizes)
     yield _Figure("ocs.flywheel.spin_inertia", wheel.spin_inertia, spin, unit, sizes)
-    yield _Figure(
-        "ocs.flywheel.transverse_inertia", wheel.transverse_inertia, transverse, unit, sizes
-    )
+    yield _Figure("ocs.flywheel.transverse_inertia", stated, transverse, unit, sizes)
     energy, speed = stored_energy(spin, motor.top_speed), "inertia and top speed give"
     yield _Figure("ocs.flywheel.stored_energy", wheel.stored_energy, energy, "J", speed)
     material = materials().get(wheel.material)

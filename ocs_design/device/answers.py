@@ -7,6 +7,7 @@ import numpy as np
 
 from ocs_design.common.arrays import vector
 from ocs_design.common.errors import Infeasible
+from ocs_design.common.records import recorded
 from ocs_design.device.layout import Criterion, incidence_by_criterion
 from ocs_design.device.records.design import SCHEMA_VERSION
 from ocs_design.device.records.flights import (
@@ -185,11 +186,7 @@ class RecognitionRecord:
                 *(doubt.what for doubt in reading.doubts),
             ),
             likely=tuple(
-                ReadingLine(
-                    trunk=reading.trunk,
-                    legs=tuple(leg.name for leg in reading.legs),
-                    confidence=reading.confidence,
-                )
+                recorded(ReadingLine, reading, legs=tuple(leg.name for leg in reading.legs))
                 for reading in recognition.likely
             ),
         )
@@ -300,9 +297,8 @@ class Front:
     def __repr__(self) -> str:
         masses = [1e3 * point.device.mass for point in self.feasible if point.device is not None]
         mass_range = f"{min(masses):.4g} to {max(masses):.4g} g" if masses else "no device"
-        return (
-            f"<Front of {self.robot} against {self.label}: {len(self.points)} points, {mass_range}>"
-        )
+        subject = f"{self.robot} against {self.label}"
+        return f"<Front of {subject}: {len(self.points)} points, {mass_range}>"
 
     def _repr_html_(self) -> str:
         from ocs_design import as_html  # noqa: PLC0415 - the report stands above

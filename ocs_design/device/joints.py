@@ -127,9 +127,8 @@ def unheld_moment(device: Device, margins: Sequence[Margin]) -> float:
     Args:
         device: device whose feet are held (`foot_hold`). margins: of its motion.
     """
-    demand = max(
-        (margin.demand for margin in margins if margin.name == BEARING_MOMENT), default=0.0
-    )
+    moments = (margin.demand for margin in margins if margin.name == BEARING_MOMENT)
+    demand = max(moments, default=0.0)
     return demand if demand > foot_hold(device).turning else 0.0
 
 
@@ -148,21 +147,14 @@ def joints_of(device: Device) -> tuple[Margin, ...]:
 
 def _shocks(device: Device) -> Iterator[Margin]:
     """Accelerations at which the module's mount breaks."""
-    module_mass = device.module_mass
+    module_mass, hold = device.module_mass, foot_hold(device)
     mass_text = format_quantity(module_mass, "kg" if module_mass >= 1.0 else "g", digits=3)
-    shock = f"a shock of {SHOCK / STANDARD_GRAVITY:.0f} g"
-    hold = foot_hold(device)
-    foot_note = (
-        f"{shock} on {mass_text} along the wheel's axis, until the foot, printed of PETG, breaks"
-    )
+    shock, end = f"a shock of {SHOCK / STANDARD_GRAVITY:.0f} g", "the foot, printed of PETG, breaks"
     if hold.heads_bear < hold.prints_bear:
-        bearing_part = "washers" if hold.washers else "heads"
-        foot_note = (
-            f"{shock} on {mass_text} along the wheel's axis, until the {bearing_part} of its "
-            "screws sink in"
-        )
+        end = f"the {'washers' if hold.washers else 'heads'} of its screws sink in"
     capacity = min(hold.prints_bear, hold.heads_bear)
-    yield Margin(FOOT_SHOCK, SHOCK, capacity, "m/s2", note=foot_note)
+    note = f"{shock} on {mass_text} along the wheel's axis, until {end}"
+    yield Margin(FOOT_SHOCK, SHOCK, capacity, "m/s2", note=note)
     plate = device.plate
     if plate is not None:
         use = plate_screws_use(plate, module_mass, foot_of(device).wheel_height)
@@ -216,9 +208,8 @@ def _rim_joints(device: Device, web: Web) -> Iterator[Margin]:
     rings, fit = wheel_rings(wheel), rim_fit(device)
     if rings is None:
         name = WHEEL_STRESS if web.material == wheel.material else RIM_JOINT
-        yield Margin(
-            name, 0.0, None, "Pa", note=f"elastic figures of {wheel.material} are not known"
-        )
+        note = f"elastic figures of {wheel.material} are not known"
+        yield Margin(name, 0.0, None, "Pa", note=note)
     elif web.material == wheel.material:
         where, peak = _peak(web, rings, OVERSPEED * device.motor.top_speed)
         note = (
@@ -242,11 +233,10 @@ def _rim_joints(device: Device, web: Web) -> Iterator[Margin]:
         )
         torque = SERVICE * (device.motor.torque_limit or 0.0)
         yield Margin(RIM_JOINT, torque, fit.torque, "N m", note=note)
-        for name, stress, material in (
-            ("web of the shrink fit", fit.stress_web, web.material),
-            ("rim of the shrink fit", fit.stress_rim, wheel.material),
-        ):
+        stresses = (("web", fit.stress_web, web.material), ("rim", fit.stress_rim, wheel.material))
+        for part, stress, material in stresses:
             strength, note = materials()[material].yield_strength, "at the tightest fit, to yield"
+            name = f"{part} of the shrink fit"
             yield Margin(name, stress, strength, "Pa", note=f"largest stress {note}")
         buckling, note = "web of the shrink fit, to buckling", "a full plate with its edge held"
         yield Margin(buckling, fit.squeezed, fit.buckling, "Pa", note=note)
@@ -302,15 +292,13 @@ def rim_fit(device: Device) -> ShrinkFit | None:
     rings = wheel_rings(wheel)
     if wheel.web is None or rings is None or wheel.web.material == wheel.material:
         return None
-    web_material, rim_material = (
-        materials()[name] for name in (wheel.web.material, wheel.material)
-    )
-    hub = wheel.web.hub
-    if web_material.thermal_expansion is None or rim_material.thermal_expansion is None:
+    names, hub = (wheel.web.material, wheel.material), wheel.web.hub
+    web_expansion, rim_expansion = (materials()[name].thermal_expansion for name in names)
+    if web_expansion is None or rim_expansion is None:
         return None
     return shrink_fit(
         rings,
-        (web_material.thermal_expansion, rim_material.thermal_expansion),
+        (web_expansion, rim_expansion),
         OVERSPEED * device.motor.top_speed,
         SERVICE * (device.motor.torque_limit or 0.0),
         holes=hub.bolt_circle_radius if hub.bolts else None,
@@ -389,25 +377,21 @@ def _bell_joints(device: Device) -> Iterator[Margin]:
             expansion=material.thermal_expansion,
             speed=speed,
         )
-        yield Margin(
-            "rim joint, pull on the bond",
-            float(tension),
-            bond_strength,
-            "Pa",
-            note=f"bonded around the bell with {EPOXY}; the ring would grow off a rigid bell at "
+        note = (
+            f"bonded around the bell with {EPOXY}; the ring would grow off a rigid bell at "
             f"{OVERSPEED:g} x top speed, {COLDEST:g} to {HOTTEST:g} deg C, against "
-            f"{BOND_SHARE:.0%} of its {1e-6 * EPOXY_STRENGTH:g} MPa at {HOTTEST:g} deg C",
+            f"{BOND_SHARE:.0%} of its {1e-6 * EPOXY_STRENGTH:g} MPa at {HOTTEST:g} deg C"
         )
-    yield Margin(
-        SHAFT_JOINT,
-        SERVICE * (device.motor.torque_limit or 0.0),
-        cylinder_torque(
-            2.0 * wheel.inner_radius, wheel.height - 2.0 * wheel.cuts.chamfer, bond_strength
-        ),
-        "N m",
-        note=f"bonded around the bell with {EPOXY}, at {BOND_SHARE:.0%} of its "
-        f"{1e-6 * EPOXY_STRENGTH:g} MPa at {HOTTEST:g} deg C, against {SERVICE:g} x peak torque",
+        name = "rim joint, pull on the bond"
+        yield Margin(name, float(tension), bond_strength, "Pa", note=note)
+    diameter, bonded = 2.0 * wheel.inner_radius, wheel.height - 2.0 * wheel.cuts.chamfer
+    capacity = cylinder_torque(diameter, bonded, bond_strength)
+    note = (
+        f"bonded around the bell with {EPOXY}, at {BOND_SHARE:.0%} of its "
+        f"{1e-6 * EPOXY_STRENGTH:g} MPa at {HOTTEST:g} deg C, against {SERVICE:g} x peak torque"
     )
+    torque = SERVICE * (device.motor.torque_limit or 0.0)
+    yield Margin(SHAFT_JOINT, torque, capacity, "N m", note=note)
 
 
 @dataclass(frozen=True)

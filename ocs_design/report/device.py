@@ -185,11 +185,8 @@ def _mass_facts(design: OcsDesign) -> Iterator[tuple[str, str]]:
         "motor": ocs.motor.mass,
         "gear": ocs.motor.gear_mass,
         "controller": ocs.motor.controller_mass,
-        "housing": ocs.carrier.mass
-        - ocs.motor.mass
-        - ocs.motor.gear_mass
-        - ocs.motor.controller_mass,
     }
+    parts["housing"] = ocs.carrier.mass - parts["motor"] - parts["gear"] - parts["controller"]
     factor, unit = (1e3, "g") if max(parts.values()) < 1.0 else (1.0, "kg")
     masses = (
         f"{name} {factor * mass:.{1 if unit == 'g' else 2}f}"
@@ -207,9 +204,7 @@ def _mass_facts(design: OcsDesign) -> Iterator[tuple[str, str]]:
         yield name, f"{grams(plate.mass)} with {its} screws, {sizes} mm{on}"
     if ocs.pedestals:
         mass = grams(sum(pedestal.mass for pedestal in ocs.pedestals))
-        largest = " x ".join(
-            tenths(length) for length in max(pedestal.sizes for pedestal in ocs.pedestals)
-        )
+        largest = " x ".join(map(tenths, max(pedestal.sizes for pedestal in ocs.pedestals)))
         count = len(ocs.pedestals)
         name = "pedestal" if count == 1 else f"{count} pedestals"
         yield name, f"{mass} with their screws, at most {largest} mm"
@@ -236,15 +231,10 @@ def layout_text(ocs: OcsRecord) -> str:
 
 def criterion_table(ocs: OcsRecord) -> CellTable:
     """Best incidence under each criterion, with the device and for the robot alone."""
-    robot_alone = ocs.incidence_by_criterion_robot_alone
-    return CellTable(
-        columns("<incidence by criterion", "with the device [deg]", "robot alone [deg]"),
-        tuple(
-            (
-                name,
-                degrees_number(angle, 2),
-                degrees_number(robot_alone[name], 2) if name in robot_alone else "",
-            )
-            for name, angle in ocs.incidence_by_criterion.items()
-        ),
-    )
+    heads = columns("<incidence by criterion", "with the device [deg]", "robot alone [deg]")
+    rows = []
+    for name, angle in ocs.incidence_by_criterion.items():
+        alone = ocs.incidence_by_criterion_robot_alone.get(name)
+        alone_text = "" if alone is None else degrees_number(alone, 2)
+        rows.append((name, degrees_number(angle, 2), alone_text))
+    return CellTable(heads, tuple(rows))

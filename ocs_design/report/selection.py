@@ -138,15 +138,10 @@ def co_design_facts(selection: SelectionRecord) -> Rows:
         return ()
     rows = [("solver", f"{co_design.status}, {co_design.iterations} iterations")]
     if co_design.mass is not None:
-        change = co_design.mass / co_design.selected_mass - 1.0
-        rows.append(
-            (
-                "device",
-                f"{grams(co_design.mass)} against {grams(co_design.selected_mass)} ({change:+.2%})",
-            )
-        )
+        selected = co_design.selected_mass
+        change = f"({co_design.mass / selected - 1.0:+.2%})"
+        rows.append(("device", f"{grams(co_design.mass)} against {grams(selected)} {change}"))
     if co_design.violation is not None:
-        rows.append(
-            ("violation", f"{co_design.violation:.1e} (relative), on a grid ten times finer")
-        )
+        violation = f"{co_design.violation:.1e} (relative), on a grid ten times finer"
+        rows.append(("violation", violation))
     return (*rows, ("outcome", co_design.remark))

@@ -66,10 +66,8 @@ def headline(result: OcsDesign | Validated) -> Headline:
         certificate = None if result.monte_carlo is None else result.monte_carlo.certificate
     parts += _flights(runs)
     if survival is not None:
-        count = len(survival.flights)
-        parts.append(
-            _share("survives a drive failure", count - len(survival.lost), count, Tone.FAIL)
-        )
+        count, lost = len(survival.flights), len(survival.lost)
+        parts.append(_share("survives a drive failure", count - lost, count, Tone.FAIL))
     if certificate is not None:
         tones = {
             Conclusion.CERTIFIED: Tone.PASS,

@@ -46,11 +46,9 @@ def planned_turns(
     *,
     one_stops: bool,
 ) -> Mapping[str, "Reference"]:
-    """Planned turns that the flights track, by name of maneuver.
+    """Planned turns that the flights of a device with a motor track, by name of maneuver.
 
-    Args:
-        robot: that flies. device: on it, with a motor. maneuvers: to plan.
-        reserve: reserve with which the device was sized. one_stops: whether one drive may fail.
+    `reserve` is the one with which the device was sized; `one_stops`: one drive may fail.
     """
     # CasADi takes a third of a second to import, and wheels without a motor do not need it.
     from ocs_design.sizing.trajectory.plans import plan  # noqa: PLC0415

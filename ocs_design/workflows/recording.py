@@ -75,9 +75,7 @@ def record_selection(choice: DriveChoice, reserve: ReserveRecord | None = None) 
             )
             for entry in selection.ranking
         ),
-        rejections=tuple(
-            recorded(RejectionRecord, rejection) for rejection in selection.rejections
-        ),
+        rejections=tuple(recorded(RejectionRecord, other) for other in selection.rejections),
         co_design=choice.co_design,
         prices=tuple(mass_prices(problem, selection.best)),
         kept=reserve,
@@ -114,17 +112,11 @@ def write_runs(runs: Sequence[Run], folder: Path, survival: SurvivalRecord | Non
             )
             for flight in survival.flights:
                 detected = flight.instant + survival.detection
-                writer.writerow(
-                    (
-                        flight.scenario,
-                        flight.module,
-                        f"{flight.instant:.6g}",
-                        f"{detected:.6g}",
-                        "" if flight.lands is None else str(flight.lands).lower(),
-                        "" if flight.tilt is None else f"{flight.tilt:.6g}",
-                        flight.reason,
-                    )
-                )
+                times = f"{flight.instant:.6g}", f"{detected:.6g}"
+                lands = "" if flight.lands is None else str(flight.lands).lower()
+                tilt = "" if flight.tilt is None else f"{flight.tilt:.6g}"
+                row = flight.scenario, flight.module, *times, lands, tilt, flight.reason
+                writer.writerow(row)
 
 
 HOUSING_ASSUMPTION = (
@@ -162,13 +154,9 @@ def record_design(
             required_inertia=AxisInertia.of([demand.momentum for demand in sized.demands], speed),
             spin_inertia_by_hand=requirement.spin_inertia,
             demands=tuple(
-                recorded(
-                    DemandRecord,
-                    demand,
-                    roll_momentum=float(demand.momentum[0]),
-                    pitch_momentum=float(demand.momentum[1]),
-                )
+                recorded(DemandRecord, demand, roll_momentum=roll, pitch_momentum=pitch)
                 for demand in sized.demands
+                for roll, pitch in (demand.momentum.tolist(),)
             ),
             assumptions=(*resolved.assumptions, *housing),
             reliability=resolved.reliability,
@@ -178,12 +166,8 @@ def record_design(
             OcsRecord,
             device,
             incidence_criterion=designed.criterion,
-            incidence_by_criterion={
-                str(name): angle for name, angle in sized.incidence_by_criterion.items()
-            },
-            incidence_by_criterion_robot_alone={
-                str(name): angle for name, angle in sized.incidence_by_criterion_robot.items()
-            },
+            incidence_by_criterion=dict(sized.incidence_by_criterion),
+            incidence_by_criterion_robot_alone=dict(sized.incidence_by_criterion_robot),
             heading_drift=heading_drift(total.inertia),
             spin_inertia=device.flywheel.spin_inertia,
             mass_total=device.mass,

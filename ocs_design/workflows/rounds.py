@@ -58,11 +58,7 @@ from ocs_design.sizing.reserve import Reserve
 from ocs_design.sizing.selection.rejections import Refused
 from ocs_design.sizing.sized import Designed
 from ocs_design.sizing.specified import CannotSurvive
-from ocs_design.workflows.flying import (
-    PlannedFlights,
-    planned_turns,
-    trajectories,
-)
+from ocs_design.workflows.flying import PlannedFlights, planned_turns, trajectories
 
 if TYPE_CHECKING:
     from ocs_design.jumping.planning import JumpPlanning
@@ -135,8 +131,6 @@ def size_on_robot(
     """Size the device of a specification and place it; its jumps are planned in parallel.
 
     Args:
-        specification: of the device. robot: that carries it.
-        strict: warnings are errors.
         reserve: to keep; None: the one for the specified reliability.
         estimates: factor on the estimated demand of each turn, by name; 1 for all others.
 
@@ -295,15 +289,29 @@ def size_for_turns(placed: PlacedDevice, steps: Steps, *, strict: bool) -> Place
         if estimates == placed.estimates:
             break
         with steps.step("resize the device for its turns") as step:
-            try:
-                resized = size_on_robot(
-                    placed.specification, placed.robot, strict=strict, estimates=estimates
-                )
-            except (Refused, NoMountHolds):
+            larger = resized(placed, strict=strict, estimates=estimates)
+            if larger is None:
                 step.note = "no device makes them in time"
                 break
-        placed = resized.with_substitutions(placed.substitutions)
+        placed = larger
     return placed
+
+
+def resized(
+    placed: PlacedDevice,
+    *,
+    strict: bool,
+    estimates: Mapping[str, float],
+    reserve: Reserve | None = None,
+) -> PlacedDevice | None:
+    """The device sized again with other demands (`size_on_robot`); None: there is none."""
+    try:
+        larger = size_on_robot(
+            placed.specification, placed.robot, strict=strict, reserve=reserve, estimates=estimates
+        )
+    except (Refused, NoMountHolds):
+        return None
+    return larger.with_substitutions(placed.substitutions)
 
 
 def turn_references(
@@ -398,10 +406,6 @@ def certify(
 ) -> tuple[PlacedDevice, FlightResults]:
     """Fly sampled robots; a device that falls short is resized with more reserve.
 
-    Args:
-        placed: the device. results: its flights as designed.
-        steps: progress. strict: warnings are errors.
-
     Returns:
         Device of the last round and its flights.
 
@@ -441,18 +445,12 @@ def certify(
         if reserve is None or conclusion is None or conclusion.factor == 1.0:
             break
         with steps.step("resize the device with more reserve") as step:
-            try:
-                resized = size_on_robot(
-                    specification,
-                    placed.robot,
-                    strict=strict,
-                    reserve=reserve.raised(conclusion.factor),
-                    estimates=placed.estimates,
-                )
-            except (Refused, NoMountHolds):
+            raised = reserve.raised(conclusion.factor)
+            larger = resized(placed, strict=strict, estimates=placed.estimates, reserve=raised)
+            if larger is None:
                 step.note = "no device has that reserve"
                 break
-            step.note = resized.combinations
-        placed = resized.with_substitutions(placed.substitutions)
+            step.note = larger.combinations
+        placed = larger
         results = plan_and_fly(placed, specified, steps)
     return placed, results

@@ -230,14 +230,10 @@ def _write_flights(
     write_runs(results.runs, folder, results.survival)
     if not placed.specification.validation.video:
         return ()
+    device, maneuvers = placed.designed.device, placed.resolved.requirement.maneuvers
     with steps.step("film the flights"):
-        return film_if_possible(
-            placed.robot,
-            placed.designed.device,
-            placed.resolved.requirement.maneuvers,
-            results.runs,
-            folder / "validation",
-        )
+        target = folder / "validation"
+        return film_if_possible(placed.robot, device, maneuvers, results.runs, target)
 
 
 def _lighter_changes(
@@ -247,17 +243,10 @@ def _lighter_changes(
     by, choice = placed.specification.ocs.lighter_by, placed.designed.choice
     if by is None or choice is None:
         return None
+    driving = driving_maneuver.maneuver if driving_maneuver else ""
     with steps.step("search changes that make it lighter") as step:
-        return TradeOffs(
-            by=by,
-            changes=lighter_by(
-                by,
-                placed.task,
-                choice,
-                driving_maneuver.maneuver if driving_maneuver else "",
-                step.update,
-            ),
-        )
+        changes = lighter_by(by, placed.task, choice, driving, step.update)
+    return TradeOffs(by=by, changes=changes)
 
 
 def _write_report(

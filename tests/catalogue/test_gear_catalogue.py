@@ -152,4 +152,7 @@ def test_few_teeth_in_mesh_reduce_the_torque():
 
 
 def test_the_belt_speed_limits_the_wheel():
-    assert STAGE.wheel_speed_max(33.0) * STAGE.wheel_radius == pytest.approx(33.0)
+    sheet = gear("GT3 2 mm x 6 mm")
+    for stage in sheet.stages():
+        belt_speed = stage.wheel_speed_max * stage.room.wheel_radius
+        assert belt_speed == pytest.approx(sheet.belt_speed_max_m_s)

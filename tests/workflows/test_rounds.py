@@ -44,7 +44,7 @@ def placed():
 def test_a_turn_that_needs_larger_wheels_is_sized_again(placed, monkeypatch):
     requests = []
 
-    def size_again(_specification, _robot, *, strict, estimates):
+    def size_again(_specification, _robot, *, strict, reserve, estimates):
         requests.append(dict(estimates))
         return replace(placed, estimates=estimates)
 

@@ -6,7 +6,7 @@ from ocs_design.report.charts.chart import Chart
 from ocs_design.report.charts.flights import distribution_charts, drive_charts, time_charts
 from ocs_design.report.charts.front import reserve_charts
 from ocs_design.report.charts.momentum import bound_charts, incidence_charts
-from ocs_design.report.story import Story
+from ocs_design.report.story import RecordedFlight, Story
 
 FOLDER = "figures"
 """Subfolder of an output folder for the figures."""
@@ -14,15 +14,10 @@ FOLDER = "figures"
 
 def scenario_charts(story: Story) -> Mapping[str, tuple[Chart, ...]]:
     """Time series of each maneuver, by name."""
-    scenarios = dict.fromkeys(flight.scenario for flight in story.flights)
-    return {
-        scenario: tuple(
-            time_charts(
-                scenario, [flight for flight in story.flights if flight.scenario == scenario]
-            )
-        )
-        for scenario in scenarios
-    }
+    flights: dict[str, list[RecordedFlight]] = {}
+    for flight in story.flights:
+        flights.setdefault(flight.scenario, []).append(flight)
+    return {scenario: tuple(time_charts(scenario, own)) for scenario, own in flights.items()}
 
 
 def all_charts(story: Story) -> Iterator[Chart]:

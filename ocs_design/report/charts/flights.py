@@ -210,11 +210,8 @@ def drive_charts(motor: Drive, flights: Sequence[RecordedFlight]) -> Iterator[Ch
         marks.append(Rule(-speed_max_rpm, upright=True, ink=Ink.PLAIN))
         marks.append(Rule(speed_max_rpm, upright=True, label="top speed", ink=Ink.PLAIN))
     first, *other_wheels = (part_name("wheel", wheel) for wheel in with_device[0].wheels)
-    legend = ""
-    if other_wheels:
-        legend = (
-            f": solid {first}, dashed {other_wheels[0] if len(other_wheels) == 1 else 'others'}"
-        )
+    others = other_wheels[0] if len(other_wheels) == 1 else "others"
+    legend = f": solid {first}, dashed {others}" if other_wheels else ""
     yield Chart(
         name="torque_speed",
         title=f"Torque and speed of a wheel{legend}",

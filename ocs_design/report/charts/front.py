@@ -80,6 +80,7 @@ def reserve_charts(selection: SelectionRecord | None) -> Iterator[Chart]:
     levels, kilograms = np.array(reserve.curve).T
     robots, masses = 1.0 / (1.0 - levels), 1e3 * kilograms
     labels = tuple(f"{100.0 * level:g} %" for level in levels)
+    own = 1.0 / (1.0 - reserve.reliability)
     yield Chart(
         name="reliability",
         title="Mass against reliability",
@@ -88,9 +89,7 @@ def reserve_charts(selection: SelectionRecord | None) -> Iterator[Chart]:
         x=Axis("robots of which one may fail", "", 1.5, 1500.0, log=True),
         y=Axis.around("mass of the device", "g", masses, room=0.15),
         marks=(
-            Rule(
-                1.0 / (1.0 - reserve.reliability), upright=True, label="as specified", ink=Ink.FAINT
-            ),
+            Rule(own, upright=True, label="as specified", ink=Ink.FAINT),
             Curve(robots, masses, Ink.BLUE),
             Points(robots, masses, Ink.BLUE, labels=labels),
         ),

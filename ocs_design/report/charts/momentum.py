@@ -78,14 +78,10 @@ def maneuver_momenta(story: Story) -> tuple[ManeuverMomentum, ...]:
             momenta.append(ManeuverMomentum(flight.scenario, incidence, path))
     if momenta or story.design.selection is not None:
         return tuple(momenta)
-    return tuple(
-        ManeuverMomentum(
-            demand.source,
-            demand.incidence,
-            np.array([[demand.roll_momentum, demand.pitch_momentum]]),
-        )
-        for demand in story.design.requirement.demands
-    )
+    for demand in story.design.requirement.demands:
+        momentum = np.array([[demand.roll_momentum, demand.pitch_momentum]])
+        momenta.append(ManeuverMomentum(demand.source, demand.incidence, momentum))
+    return tuple(momenta)
 
 
 def ellipsoid_chart(design: OcsDesign) -> Chart:
@@ -96,9 +92,7 @@ def ellipsoid_chart(design: OcsDesign) -> Chart:
     """
     total = np.array(design.ocs.total_inertia)[:2, :2]
     robot_alone = np.array(design.robot.inertia)[:2, :2]
-    half_range = 1.15 * float(
-        max(np.linalg.eigvalsh(total)[-1], np.linalg.eigvalsh(robot_alone)[-1])
-    )
+    half_range = 1.15 * max(float(np.linalg.eigvalsh(each)[-1]) for each in (total, robot_alone))
     arc = np.linspace(0.0, design.ocs.incidence, 40)
     marks: list[Mark] = [
         FilledArea(*_chart_coordinates(_ellipse(total)), Ink.BLUE, "robot with device"),
@@ -250,11 +244,9 @@ _ROW, _FRAME = 22.0, 110.0
 
 def criterion_chart(design: OcsDesign) -> Chart:
     """Best incidence under each criterion, with the device and for the robot alone."""
-    with_device, robot_alone = (
-        design.ocs.incidence_by_criterion,
-        design.ocs.incidence_by_criterion_robot_alone,
-    )
-    alone_angles = [
+    with_device = design.ocs.incidence_by_criterion
+    robot_alone = design.ocs.incidence_by_criterion_robot_alone
+    alone = [
         (row, robot_alone[name]) for row, name in enumerate(with_device) if name in robot_alone
     ]
     return _incidence_rows(
@@ -263,10 +255,7 @@ def criterion_chart(design: OcsDesign) -> Chart:
         "Incidence angle by criterion",
         "The best incidence angle under each criterion, with the device and for the robot alone.",
         rows=tuple(with_device),
-        angles={
-            "robot alone": alone_angles,
-            "with the device": list(enumerate(with_device.values())),
-        },
+        angles={"robot alone": alone, "with the device": list(enumerate(with_device.values()))},
     )
 
 

@@ -167,17 +167,12 @@ class _Drawing:
         for value in chart.x.ticks():
             x, _ = self._pixels(value, chart.y.low)
             elements.append(_line_element("grid", x, self._top, x, self._bottom))
-            elements.append(
-                _text_element("tick", x, self._bottom + 14.0, tick_text(value), "middle")
-            )
+            text = tick_text(value)
+            elements.append(_text_element("tick", x, self._bottom + 14.0, text, "middle"))
         if chart.rows:
-            ticks = [
-                (
-                    float(row),
-                    name if len(name) <= _ROW_NAME_LENGTH else f"{name[: _ROW_NAME_LENGTH - 1]}…",
-                )
-                for row, name in enumerate(chart.rows)
-            ]
+            most = _ROW_NAME_LENGTH
+            names = (name if len(name) <= most else f"{name[: most - 1]}…" for name in chart.rows)
+            ticks = [(float(row), name) for row, name in enumerate(names)]
         else:
             ticks = [(value, tick_text(value)) for value in chart.y.ticks(5)]
         for value, text in ticks:
@@ -244,16 +239,12 @@ class _Drawing:
         """
         boxes = [self._box(x, y + shift, text, left=left) for shift in _LABEL_SHIFTS]
         # The axis labels are below.
-        inside = [candidate for candidate in boxes if candidate.bottom <= self._bottom] or boxes
-        clear = [
-            candidate for candidate in inside if not any(map(candidate.overlaps, self._occupied))
-        ]
+        inside = [box for box in boxes if box.bottom <= self._bottom] or boxes
+        clear = [box for box in inside if not any(map(box.overlaps, self._occupied))]
         box = next(filter(self._is_free, clear), (clear or inside)[0])
         self._occupied.append(box)
-        anchor_x, anchor = (
-            (x - _LABEL_DISTANCE, "end") if box.left < x else (x + _LABEL_DISTANCE, "start")
-        )
-        return _text_element("note", anchor_x, box.top + 9.5, text, anchor)
+        side, anchor = (-1.0, "end") if box.left < x else (1.0, "start")
+        return _text_element("note", x + side * _LABEL_DISTANCE, box.top + 9.5, text, anchor)
 
     def _is_free(self, box: _Box) -> bool:
         """Whether a box is clear of labels, discs and curves, all of which are already drawn."""
@@ -265,12 +256,9 @@ class _Drawing:
 
     def _box(self, x: float, y: float, text: str, *, left: bool = False) -> _Box:
         """Box of a label beside a point; see `_beside`."""
-        width = _LETTER_WIDTH * len(text)
-        left_edge = (
-            x - _LABEL_DISTANCE - width
-            if left or x + _LABEL_DISTANCE + width > WIDTH
-            else x + _LABEL_DISTANCE
-        )
+        width, left_edge = _LETTER_WIDTH * len(text), x + _LABEL_DISTANCE
+        if left or left_edge + width > WIDTH:
+            left_edge = x - _LABEL_DISTANCE - width
         return _Box(left_edge, y - 6.0, left_edge + width, y + 5.0)
 
     def _rule(self, mark: Rule) -> tuple[float, float, float, float]:

@@ -72,9 +72,8 @@ def table(caption: str, content: CellTable) -> Markup:
         # Long texts keep some width on a narrow screen.
         is_long = column.words and max(map(len, texts), default=0) > _LONG_TEXT
         classes.append("word long" if is_long else "word" if column.words else "number")
-        headings.append(
-            element("th", head, scope="col", class_="word" if column.words else "number")
-        )
+        css_class = "word" if column.words else "number"
+        headings.append(element("th", head, scope="col", class_=css_class))
     body = []
     for row in content.rows:
         contents = (
@@ -83,17 +82,10 @@ def table(caption: str, content: CellTable) -> Markup:
             else with_nonbreaking_units(cell)
             for cell in row
         )
-        row_cells = (
-            element("td", cell, class_=css_class)
-            for cell, css_class in zip(contents, classes, strict=True)
-        )
-        body.append(element("tr", *row_cells))
-    table_element = element(
-        "table",
-        element("caption", caption),
-        element("thead", element("tr", *headings)),
-        element("tbody", *body),
-    )
+        pairs = zip(contents, classes, strict=True)
+        body.append(element("tr", *(element("td", cell, class_=kind) for cell, kind in pairs)))
+    head = element("thead", element("tr", *headings))
+    table_element = element("table", element("caption", caption), head, element("tbody", *body))
     # Wide tables scroll on their own on a narrow screen, also by keyboard.
     return element(
         "div", table_element, class_="scroll", tabindex="0", role="region", aria_label=caption

@@ -50,25 +50,20 @@ def as_html(result: OcsDesign | Front | Validated, folder: Path | None = None) -
             ),
             table(f"Flights: {flights_title(result.validation)}", verdicts)
             if verdicts.rows
-            else Markup(""),
+            else "",
         )
     if isinstance(result, Front):
         chart = front_chart(result)
-        rows = tuple(
-            (format_quantity(point.value, result.unit), "-", point.reason)
-            if point.device is None
-            else (
-                format_quantity(point.value, result.unit),
-                grams(point.device.mass),
-                f"{point.device.motor}, {point.device.gear}, {point.device.material}",
-            )
-            for point in result.points
-        )
-        return element(
-            "div",
-            _image("svg+xml", svg_file(chart), chart.title),
-            table("Lightest devices", CellTable(columns(result.label, "mass", "<drive"), rows)),
-        )
+        rows = []
+        for point in result.points:
+            mass, drive, device = "-", point.reason, point.device
+            if device is not None:
+                mass = grams(device.mass)
+                drive = f"{device.motor}, {device.gear}, {device.material}"
+            rows.append((format_quantity(point.value, result.unit), mass, drive))
+        devices = CellTable(columns(result.label, "mass", "<drive"), tuple(rows))
+        picture = _image("svg+xml", svg_file(chart), chart.title)
+        return element("div", picture, table("Lightest devices", devices))
     parts, campaign = [_title_paragraph(result.robot, headline(result))], result.monte_carlo
     if campaign is not None:
         parts.append(table(campaign_title(campaign), success_table(campaign)))

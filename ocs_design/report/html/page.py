@@ -87,6 +87,8 @@ def _body(story: Story) -> Iterator[Markup]:
         if anchor != "samples" or story.monte_carlo is not None
     )
     line = headline(design)
+    parts = (element("strong", part.text, class_=part.tone) for part in line.parts)
+    findings = (line.main_finding, *hand_turn_remarks(design))
     yield element("a", "Skip to the content", href="#robot", class_="skip")
     yield element(
         "header",
@@ -94,17 +96,8 @@ def _body(story: Story) -> Iterator[Markup]:
         element("h1", title_of(design)),
         element(
             "p",
-            element(
-                "span",
-                *(element("strong", part.text, class_=part.tone) for part in line.parts),
-                class_="line",
-            ),
-            element("span", line.main_finding) if line.main_finding else "",
-            *(
-                element("span", remark)
-                for remark in hand_turn_remarks(design)
-                if remark != line.main_finding
-            ),
+            element("span", *parts, class_="line"),
+            *(element("span", text) for text in dict.fromkeys(findings) if text),
             class_=f"verdict {line.tone}",
         ),
         _tiles(design),
@@ -151,18 +144,13 @@ def _tiles(design: OcsDesign) -> Markup:
         ("Spin inertia", inertia(ocs.spin_inertia), "of each wheel"),
         ("Wheel speed, by design", rpm(design.requirement.wheel_speed_max), stress_note),
     )
-    classes = (("span", "name"), ("strong", "value"), ("span", "note"))
-    return element(
-        "ul",
-        *(
-            element(
-                "li",
-                *(
-                    element(kind, text, class_=css_class)
-                    for (kind, css_class), text in zip(classes, tile, strict=True)
-                ),
-            )
-            for tile in tiles
-        ),
-        class_="tiles",
+    entries = (
+        element(
+            "li",
+            element("span", name, class_="name"),
+            element("strong", value, class_="value"),
+            element("span", remark, class_="note"),
+        )
+        for name, value, remark in tiles
     )
+    return element("ul", *entries, class_="tiles")

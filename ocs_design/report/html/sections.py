@@ -35,7 +35,6 @@ from ocs_design.report.html.elements import (
     facts,
     figures,
     items,
-    joined,
     note,
     section,
     table,
@@ -114,17 +113,12 @@ def limits_section(story: Story) -> Markup:
     names, meaning = limits.active_limits(design)
     driving = limits.driving_maneuver_text(design)
     alternatives = limits.alternatives_table(design)
-    drive = []
+    drive, command = [], "ocs-design pareto --against radius|height|voltage|time|angle"
     if design.selection is not None:
-        drive.append(
-            note(
-                "To plot the mass of the whole device against room, voltage or time, run ",
-                element("code", "ocs-design pareto --against radius|height|voltage|time|angle"),
-                ".",
-            )
-        )
-        if design.selection.kept is not None:
-            reserve = design.selection.kept
+        hint = "To plot the mass of the whole device against room, voltage or time, run "
+        drive.append(note(hint, element("code", command), "."))
+        reserve = design.selection.kept
+        if reserve is not None:
             drive += [
                 table("What is uncertain, and what it costs", limits.reserve_table(reserve)),
                 figures(reserve_charts(design.selection)),
@@ -229,20 +223,17 @@ def maneuvers_section(
 
 def monte_carlo_section(story: Story) -> Markup:
     """Pass rates and spread of the Monte Carlo flights; empty if there are none."""
-    record = story.monte_carlo
+    record, verdict = story.monte_carlo, []
     if record is None:
         return Markup("")
+    if record.certificate is not None:
+        line = element("strong", monte_carlo.certificate_line(record.certificate))
+        notes = [f"{text}." for text in monte_carlo.certificate_notes(record.certificate)]
+        verdict = [element("p", line), items(notes)]
     return section(
         "samples",
         "Monte Carlo",
-        *(
-            (
-                element("p", element("strong", monte_carlo.certificate_line(record.certificate))),
-                items([f"{line}." for line in monte_carlo.certificate_notes(record.certificate)]),
-            )
-            if record.certificate is not None
-            else ()
-        ),
+        *verdict,
         element("p", f"{monte_carlo.campaign_title(record)}."),
         table("How often they pass", monte_carlo.success_table(record)),
         *(element("p", f"{s.scenario}: {s.advice}.") for s in record.scenarios if s.advice),
@@ -263,6 +254,12 @@ def assembly_section(story: Story) -> Markup:
         for rows in (piece_rows(assembly), screw_rows(assembly))
     )
     exploded, *cut = (element("figure", Markup(svg), class_="sheet") for svg in pictures(assembly))
+    instructions = []
+    for chapter in chapters(assembly):
+        entries = (element("li", text) for text in chapter.texts)
+        numbered = element("ol", *entries, start=str(chapter.first))
+        instructions.append(element("h3", chapter.title))
+        instructions.append(numbered if chapter.numbered else items(chapter.texts))
     return section(
         "assembly",
         "Assembly: how to build, balance, test and wire it",
@@ -273,21 +270,7 @@ def assembly_section(story: Story) -> Markup:
         ),
         *cut,
         table("Screws", CellTable(columns(*_SCREWS), screws)) if screws else "",
-        *(
-            joined(
-                (
-                    element("h3", chapter.title),
-                    element(
-                        "ol",
-                        *(element("li", text) for text in chapter.texts),
-                        start=str(chapter.first),
-                    )
-                    if chapter.numbered
-                    else items(chapter.texts),
-                )
-            )
-            for chapter in chapters(assembly)
-        ),
+        *instructions,
         element("p", "To print this, use ", element("code", "cad/assembly.pdf"), "."),
     )
 
@@ -314,10 +297,7 @@ def record_section(story: Story) -> Markup:
         with suppress(PackageNotFoundError):
             libraries.append(f"{name} {version(name)}")
     provenance = [
-        (
-            "robot",
-            f"{design.robot.source}, SHA-256 {design.robot.sha256 or 'none: by hand'}",
-        ),
+        ("robot", f"{design.robot.source}, SHA-256 {design.robot.sha256 or 'none: by hand'}"),
         *([("made by", story.command)] if story.command else []),
         ("program", f"{design.tool.name} {design.tool.version}"),
         ("seed", str(design.seed)),

@@ -57,39 +57,23 @@ def print_inspection(console: Console, inspection: Inspection, *, verbose: bool 
     )
     if recognition is not None and recognition.likely:
         heading(console, "Trunk and legs are ambiguous; `size` will ask for one of")
-        rows = tuple(
-            (
-                f"--trunk {candidate.trunk} --legs {','.join(candidate.legs) or 'none'}",
-                f"{candidate.confidence:.0%}",
-            )
-            for candidate in recognition.likely
-        )
-        show(console, CellTable(columns("<options", "confidence"), rows))
+        readings = []
+        for reading in recognition.likely:
+            options = f"--trunk {reading.trunk} --legs {','.join(reading.legs) or 'none'}"
+            readings.append((options, f"{reading.confidence:.0%}"))
+        show(console, CellTable(columns("<options", "confidence"), tuple(readings)))
     heading(console, "Incidence angle alpha* of the robot alone, by criterion")
     criteria = inspection.incidence_by_criterion.items()
-    show(
-        console,
-        CellTable(
-            columns("<criterion", "deg"),
-            tuple((name, degrees_number(angle, 3)) for name, angle in criteria),
-        ),
-    )
+    angles = tuple((name, degrees_number(angle, 3)) for name, angle in criteria)
+    show(console, CellTable(columns("<criterion", "deg"), angles))
     note(console, SAME_RATE)
     heading(console, "Incidence angle (equal-rate) over postures")
-    show(
-        console,
-        CellTable(
-            columns("<posture", "Ixx [kg m2]", "Iyy [kg m2]", "Izz [kg m2]", "alpha* [deg]"),
-            tuple(
-                (
-                    line.posture,
-                    *(f"{moment:#.4g}" for moment in line.inertia_diagonal),
-                    degrees_number(line.incidence, 2),
-                )
-                for line in inspection.incidence_by_posture
-            ),
-        ),
-    )
+    heads = columns("<posture", "Ixx [kg m2]", "Iyy [kg m2]", "Izz [kg m2]", "alpha* [deg]")
+    postures = []
+    for line in inspection.incidence_by_posture:
+        moments = (f"{moment:#.4g}" for moment in line.inertia_diagonal)
+        postures.append((line.posture, *moments, degrees_number(line.incidence, 2)))
+    show(console, CellTable(heads, tuple(postures)))
     if "solo12" in robot.name.lower():
         note(console, PAPER_ANGLE)
     if robot.posture and verbose:
