@@ -6,7 +6,6 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import takewhile
 
 import numpy as np
 from numpy.typing import NDArray
@@ -154,17 +153,15 @@ class Chain:
         """
         columns = range(len(self.driven)) if movable is None else movable
         start = self.neutral()
-        best = self._coordinate_ascent(local, direction, columns, start)
+        best, extension = self._coordinate_ascent(local, direction, columns, start)
         span = self.span(local)
-        extension = self._extension(best, local, direction)
-        if extension < _STRETCHED_SHARE * span:
-            for turn in _RESTART_OFFSETS:
-                turned = start.copy()
-                turned[list(columns)] += turn
-                turned = np.clip(turned, self.lower, self.upper)
-                restarted = self._coordinate_ascent(local, direction, columns, turned)
-                if self._extension(restarted, local, direction) > extension + _RESTART_GAIN * span:
-                    best, extension = restarted, self._extension(restarted, local, direction)
+        for turn in _RESTART_OFFSETS if extension < _STRETCHED_SHARE * span else ():
+            turned = start.copy()
+            turned[list(columns)] += turn
+            turned = np.clip(turned, self.lower, self.upper)
+            values, restarted = self._coordinate_ascent(local, direction, columns, turned)
+            if restarted > extension + _RESTART_GAIN * span:
+                best, extension = values, restarted
         return best
 
     def span(self, local: FloatArray) -> float:
@@ -172,15 +169,10 @@ class Chain:
         lengths = [np.linalg.norm(body.placement.position) for body in self.bodies[1:]]
         return float(sum(lengths) + np.linalg.norm(local))
 
-    def _extension(self, values: FloatArray, local: FloatArray, direction: FloatArray) -> float:
-        """Distance of a point of the last body from the first joint along `direction` [m]."""
-        pose = self.pose(values)
-        return float(direction @ (pose.point(local) - pose.origins[0]))
-
     def _coordinate_ascent(
         self, local: FloatArray, direction: FloatArray, columns: Sequence[int], start: FloatArray
-    ) -> FloatArray:
-        """Values at which the ascent ends."""
+    ) -> tuple[FloatArray, float]:
+        """Values at which the ascent ends, and how far the point is from the first joint [m]."""
         values = start.copy()
         for _ in range(_SWEEPS):
             before = values.copy()
@@ -205,7 +197,8 @@ class Chain:
                 values[column] = value
             if np.abs(values - before).max(initial=0.0) < 1e-6:
                 break
-        return values
+        pose = self.pose(values)
+        return values, float(direction @ (pose.point(local) - pose.origins[0]))
 
 
 def nearest_turn(angle: float, lower: float, upper: float) -> float:
@@ -227,8 +220,7 @@ def chain_of(tree: Tree, base: int, last: int, placements: Sequence[Placement]) 
         base, last: indices of the two bodies.
         placements: of all bodies in the reference frame.
     """
-    path = list(takewhile(lambda body: body != base, tree.ancestors(last)))
-    return Chain(placements[base], tuple(tree.bodies[i] for i in reversed(path)))
+    return Chain(placements[base], tuple(tree.bodies[i] for i in tree.path(base, last)))
 
 
 def neutral_posture(tree: Tree) -> Mapping[str, float]:

@@ -8,12 +8,12 @@ The limits below are compared with public robots in docs/plausibility.md.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import replace
+from typing import TypeAlias
 
 import numpy as np
 
 from ocs_design.common.arrays import FloatArray
-from ocs_design.robot.chain import Chain, chain_of, neutral_posture
 from ocs_design.robot.leg_geometry import sole_depths
 from ocs_design.robot.legs import is_wheel
 from ocs_design.robot.links import Warnings
@@ -120,31 +120,10 @@ FLAT = 1e-6
 """Least side of a box [m]; a thinner body has no box."""
 
 
-@dataclass(frozen=True, eq=False)
-class Box:
-    """Box around all shapes of a body, along the axes of its frame.
+def box_of(body: Body) -> FloatArray | None:
+    """Lower and upper corner of the box around all shapes of a body [m], shape (2, 3), or None.
 
-    Attributes:
-        lower, upper: corners [m], shape (3,).
-    """
-
-    lower: FloatArray
-    upper: FloatArray
-
-    @property
-    def sides(self) -> FloatArray:
-        """Lengths of the sides [m], shape (3,)."""
-        return self.upper - self.lower
-
-    @property
-    def volume(self) -> float:
-        """Product of the sides [m^3]."""
-        return float(np.prod(self.sides))
-
-
-def box_of(body: Body) -> Box | None:
-    """Box around all collision and visual shapes of a body; None if some are not known.
-
+    Collision and visual shapes count; None if some are not known.
     If a shape is missing or slow to read, or a link has a mass but no shape, the rest may be a
     fraction of the body, and no inertia can be called too large for it.
     """
@@ -165,8 +144,8 @@ def box_of(body: Body) -> Box | None:
         corners += [middle - reach, middle + reach]
     if not corners:
         return None
-    box = Box(np.min(corners, axis=0), np.max(corners, axis=0))
-    return box if (box.sides > FLAT).all() else None
+    box = np.array([np.min(corners, axis=0), np.max(corners, axis=0)])
+    return box if (np.ptp(box, axis=0) > FLAT).all() else None
 
 
 STEEL = 7850.0
@@ -202,14 +181,15 @@ it falls by as much when the parallel-axis term is removed."""
 _OTHER_AXES = "links whose inertia does not match their shapes' axes (given in other axes?)"
 
 
-def _contradictions(properties: MassProperties, box: Box) -> Iterator[tuple[str, str]]:
+def _contradictions(properties: MassProperties, box: FloatArray) -> Iterator[tuple[str, str]]:
     """Contradictions between a body's mass properties and its box, each with its figure.
 
     Args:
         properties: physical, of a mass above zero, in the body's frame.
-        box: of the body, in its frame.
+        box: of the body (`box_of`).
     """
-    density = properties.mass / box.volume
+    sides = np.ptp(box, axis=0)
+    density = properties.mass / np.prod(sides)
     if density > STEEL:
         yield (
             "links heavier than their shapes in steel (masses in grams, or shapes too small?)",
@@ -221,17 +201,15 @@ def _contradictions(properties: MassProperties, box: Box) -> Iterator[tuple[str,
             "or masses in tonnes?)",
             f"{density:.2g} kg/m3",
         )
-    outside = float(np.maximum(box.lower - properties.com, properties.com - box.upper).max())
-    variances = mass_variances(properties.inertia, properties.mass)
-    excess = _excess(variances, box)
-    share = _share(variances, box)
-    if outside > OUTSIDE * box.sides.max():
+    outside = float(np.maximum(box[0] - properties.com, properties.com - box[1]).max())
+    excess, share = _excess(properties, sides), _share(properties, sides)
+    if outside > OUTSIDE * sides.max():
         yield (
             "links whose centre of mass is outside their shapes (in another frame, or in "
             "millimetres?)",
             f"by {1e3 * outside:.3g} mm",
         )
-    elif _is_about_origin(properties, box):
+    elif _is_about_origin(properties, sides):
         yield (
             "links whose inertia seems to be about their origin, not their centre of mass",
             f"{share:.3g} times a solid box's",
@@ -239,13 +217,11 @@ def _contradictions(properties: MassProperties, box: Box) -> Iterator[tuple[str,
     elif excess > TOO_LARGE:
         # If any turn by right angles fits, wrong axes are the most likely mistake.
         orders = ([0, 2, 1], [2, 1, 0], [1, 0, 2], [1, 2, 0], [2, 0, 1])
-        turned = [properties.inertia[np.ix_(order, order)] for order in orders]
-        fits = [
-            _excess(mass_variances(rotated, properties.mass), box) < TOO_LARGE for rotated in turned
-        ]
+        inertias = (properties.inertia[np.ix_(order, order)] for order in orders)
+        turned = (replace(properties, inertia=inertia) for inertia in inertias)
         yield (
             _OTHER_AXES
-            if any(fits)
+            if any(_excess(body, sides) < TOO_LARGE for body in turned)
             else "links with more inertia than their shapes allow (a unit other than kg m2, a "
             "placeholder, or a mesh without its scale?)",
             f"radius of gyration {excess:.3g} times the largest possible",
@@ -257,38 +233,35 @@ def _contradictions(properties: MassProperties, box: Box) -> Iterator[tuple[str,
             f"{share:.2g} times a solid box's",
         )
     else:
-        longest = int(np.argmax(box.sides))
-        transverse = box.sides[longest] > ELONGATED * box.sides
+        variances, longest = mass_variances(properties), int(np.argmax(sides))
+        transverse = sides[longest] > ELONGATED * sides
         if (transverse & (variances > SWAPPED * variances[longest])).any():
             yield _OTHER_AXES, "most of it about the long side"
 
 
-def mass_variances(inertia: FloatArray, mass: float) -> FloatArray:
+def mass_variances(body: MassProperties) -> FloatArray:
     """Variance of the mass along each axis [m^2], shape (3,)."""
-    return np.asarray(np.maximum(0.5 * np.trace(inertia) - np.diag(inertia), 0.0) / mass)
+    variances = np.maximum(0.5 * np.trace(body.inertia) - np.diag(body.inertia), 0.0) / body.mass
+    return np.asarray(variances)
 
 
-def _excess(variances: FloatArray, box: Box) -> float:
-    """Largest radius of gyration over the largest possible in the box."""
-    return float(np.sqrt((variances / (0.25 * box.sides**2)).max()))
+def _excess(body: MassProperties, sides: FloatArray) -> float:
+    """Largest radius of gyration over the largest possible in a box with these sides."""
+    return float(np.sqrt((mass_variances(body) / (0.25 * sides**2)).max()))
 
 
-def _share(variances: FloatArray, box: Box) -> float:
+def _share(body: MassProperties, sides: FloatArray) -> float:
     """Polar inertia over that of the solid box."""
-    return float(variances.sum() / (box.sides @ box.sides / 12.0))
+    return float(mass_variances(body).sum() / (sides @ sides / 12.0))
 
 
-def _is_about_origin(properties: MassProperties, box: Box) -> bool:
+def _is_about_origin(body: MassProperties, sides: FloatArray) -> bool:
     """Whether an inertia above a solid box's becomes plausible when moved to the centre of mass."""
-    point_mass = MassProperties(properties.mass, properties.com, np.zeros((3, 3)))
-    offset = point_mass.inertia_about(np.zeros(3))
-    moved = MassProperties(properties.mass, properties.com, properties.inertia - offset)
+    # Steiner's term is what the inertia about the origin has more.
+    moved = replace(body, inertia=2.0 * body.inertia - body.inertia_about(np.zeros(3)))
     if physical_defect(moved) is not None:
         return False
-    before, after = (
-        _share(mass_variances(mass_properties.inertia, mass_properties.mass), box)
-        for mass_properties in (properties, moved)
-    )
+    before, after = _share(body, sides), _share(moved, sides)
     return before > SHIFTED and after < before / SHIFTED
 
 
@@ -315,48 +288,34 @@ _MIRROR = np.diag([1.0, -1.0, 1.0])
 """Reflection at the plane between left and right, in B."""
 
 
-@dataclass(frozen=True, eq=False)
-class _Side:
-    """One leg in B, joints at rest.
-
-    Attributes:
-        leg: as found. chain: from hip to foot. origins: of its joints [m], shape (n, 3).
-        masses: of its bodies.
-    """
-
-    leg: Leg
-    chain: Chain
-    origins: FloatArray
-    masses: tuple[MassProperties, ...]
-
-
 def _judge_mirror_images(tree: Tree, trunk: str, legs: Sequence[Leg], warnings: Warnings) -> None:
-    """Compare each leg on the left with the mirror image of the one on the right."""
-    if not legs:
-        return
-    placements = tree.placements_from(trunk, neutral_posture(tree))
-    sides = []
-    for leg in legs:
-        chain = chain_of(tree, leg.base, leg.body, placements)
-        place, origins, masses = chain.start, [], []
-        for body in chain.bodies:
-            place = place @ body.placement
-            origins.append(place.position)
-            masses.append(body.mass_properties.moved(place.rotation, place.position))
-        sides.append(_Side(leg, chain, np.array(origins), tuple(masses)))
-    left = [side for side in sides if side.origins[0, 1] > 0.0]
-    right = [side for side in sides if side.origins[0, 1] < 0.0]
+    """Compare each leg on the left with the mirror image of one on the right, joints at zero."""
+    placements = tree.placements_from(trunk, {})
+    masses = tree.mass_properties_at(placements)
+    parts = [*zip(tree.bodies, masses, (place.position for place in placements), strict=True)]
+    sides = [(leg, [parts[i] for i in tree.path(leg.base, leg.body)]) for leg in legs]
+    left = [side for side in sides if _hip(side)[1] > 0.0]
+    right = [side for side in sides if _hip(side)[1] < 0.0]
     for one in left if len(left) == len(right) else ():
         # The leg whose hip is nearest to the mirror image's.
-        other = min(right, key=lambda side: _shift(side.origins[0], one.origins[0]))
-        if len(one.masses) != len(other.masses):
-            names = f"{one.leg.name}, {other.leg.name}"
+        other = min(right, key=lambda side: _shift(_hip(side), _hip(one)))
+        (leg, bodies), (twin, twins) = one, other
+        if len(bodies) != len(twins):
+            names = f"{leg.name}, {twin.name}"
             warnings.add("legs left and right differ in their number of joints", names)
             continue
-        bodies = zip(one.chain.bodies, other.chain.bodies, strict=True)
-        for index, (body, twin) in enumerate(bodies):
-            for finding in _differences(one, other, index):
-                warnings.add(finding, f"{body.name}, {twin.name}")
+        for pair in zip(bodies, twins, strict=True):
+            for finding in _differences(*pair, max(leg.length, twin.length)):
+                warnings.add(finding, ", ".join(body.name for body, _, _ in pair))
+
+
+_Part: TypeAlias = tuple[Body, MassProperties, FloatArray]
+"""A body of a leg, with its mass properties and the origin of its joint in B [m], shape (3,)."""
+
+
+def _hip(side: tuple[Leg, list[_Part]]) -> FloatArray:
+    """Origin of a leg's first joint in B [m], shape (3,)."""
+    return side[1][0][2]
 
 
 def _shift(point: FloatArray, twin: FloatArray) -> float:
@@ -364,23 +323,24 @@ def _shift(point: FloatArray, twin: FloatArray) -> float:
     return float(np.linalg.norm(point - _MIRROR @ twin))
 
 
-def _differences(one: _Side, other: _Side, index: int) -> Iterator[str]:
-    """Differences between the bodies at this index from the hip, on either side."""
-    body, twin = one.masses[index], other.masses[index]
-    length = max(one.leg.length, other.leg.length)
-    if not np.isclose(body.mass, twin.mass, rtol=MASS_SHARE, atol=0.0):
+def _differences(one: _Part, other: _Part, length: float) -> Iterator[str]:
+    """Differences between two bodies of legs of this length [m], on either side."""
+    (body, mass, origin), (twin, twin_mass, twin_origin) = one, other
+    if not np.isclose(mass.mass, twin_mass.mass, rtol=MASS_SHARE, atol=0.0):
         yield "links that differ in mass from those on the other side"
-    image = _MIRROR @ twin.inertia @ _MIRROR
-    largest = max(float(np.abs(body.inertia).max()), float(np.abs(image).max()))
-    if _shift(one.origins[index], other.origins[index]) > SHIFT_SHARE * length:
+    image = _MIRROR @ twin_mass.inertia @ _MIRROR
+    largest = max(float(np.abs(mass.inertia).max()), float(np.abs(image).max()))
+    heavy = max(mass.mass, twin_mass.mass) > 0.0
+    if _shift(origin, twin_origin) > SHIFT_SHARE * length:
         yield "joints that do not mirror those on the other side"
-    elif max(body.mass, twin.mass) > 0.0 and _shift(body.com, twin.com) > SHIFT_SHARE * length:
+    elif heavy and _shift(mass.com, twin_mass.com) > SHIFT_SHARE * length:
         yield "links whose centre of mass does not mirror the other side's"
-    elif np.abs(body.inertia - image).max() > INERTIA_SHARE * largest:
+    elif np.abs(mass.inertia - image).max() > INERTIA_SHARE * largest:
         yield "links whose inertia does not mirror the other side's"
     ours, theirs = (
         (joint.upper - joint.lower, joint.effort, joint.velocity)
-        for joint in (one.chain.joints[index], other.chain.joints[index])
+        for joint in (body.joint, twin.joint)
+        if joint is not None
     )
     if not np.isclose(ours, theirs, rtol=LIMIT_SHARE, atol=0.0).all():
         yield "joints whose range, effort or speed differs from the other side's"

@@ -10,7 +10,6 @@ import numpy as np
 from ocs_design.common.arrays import FloatArray
 from ocs_design.robot.chain import Chain, ChainPose, neutral_posture
 from ocs_design.robot.leg_geometry import LegGeometry, leg_geometries
-from ocs_design.robot.legs import LegPlane
 from ocs_design.robot.robot import Leg
 from ocs_design.robot.tree import Tree
 
@@ -54,22 +53,16 @@ class Stance:
 
 @dataclass(frozen=True, eq=False)
 class StanceProblem:
-    """Target position of a leg's foot. All vectors are in the chain's reference frame.
+    """Target position of a leg's foot. All vectors are in B.
 
     Attributes:
-        chain: the leg.
-        plane: its geometry.
-        foot: in the last body's frame [m], shape (3,).
+        geometry: of the leg.
         target: of the foot [m], shape (3,).
-        up: unit vector against gravity, shape (3,).
         knee_side: level unit vector in which the knee should point, shape (3,).
     """
 
-    chain: Chain
-    plane: LegPlane
-    foot: FloatArray
+    geometry: LegGeometry
     target: FloatArray
-    up: FloatArray
     knee_side: FloatArray
 
     def solve(self) -> Stance:
@@ -80,20 +73,21 @@ class StanceProblem:
         # Takes half a second to import; a robot in a known posture does not need it.
         from scipy.optimize import least_squares  # noqa: PLC0415
 
-        lower, upper, columns = self.chain.lower, self.chain.upper, list(self.plane.columns)
+        chain, plane, up = self.geometry.chain, self.geometry.plane, self.geometry.up
+        lower, upper, columns = chain.lower, chain.upper, list(plane.columns)
         stances: list[Stance] = []
-        stretched = self.chain.stretched(self.foot, -self.up, self.plane.pitch)
+        stretched = chain.stretched(self.geometry.leg.foot, -up, plane.pitch)
         # Bend that shortens a straight leg to the target's distance.
-        reach = float(np.linalg.norm(self.target - self.plane.hip))
-        angle = np.arccos(np.clip(reach / self.plane.length, 0.0, 1.0))
-        bend = np.zeros(len(self.chain.driven))
+        reach = float(np.linalg.norm(self.target - plane.hip))
+        angle = np.arccos(np.clip(reach / plane.length, 0.0, 1.0))
+        bend = np.zeros(len(chain.driven))
         # Turning the hip by a positive angle about `pitch` swings a hanging leg to -pitch x up.
-        towards = -np.sign(np.cross(self.plane.axis, self.up) @ self.knee_side)
-        for column, turns in zip(self.plane.pitch, (1.0, -2.0, 1.0), strict=False):
-            axis = self._zero.axes[self.chain.driven[column]]
-            bend[column] = towards * turns * angle * np.sign(axis @ self.plane.axis)
+        towards = -np.sign(np.cross(plane.axis, up) @ self.knee_side)
+        for column, turns in zip(plane.pitch, (1.0, -2.0, 1.0), strict=False):
+            axis = self._zero.axes[chain.driven[column]]
+            bend[column] = towards * turns * angle * np.sign(axis @ plane.axis)
         # The straight and the stretched leg, each bent to the desired side, then to the other.
-        for side, values in product((1.0, -1.0), (self.chain.neutral(), stretched)):
+        for side, values in product((1.0, -1.0), (chain.neutral(), stretched)):
             start = np.clip(values + side * bend, lower, upper)[columns]
             solution = least_squares(
                 self._residual,
@@ -118,47 +112,49 @@ class StanceProblem:
 
     @cached_property
     def _zero(self) -> ChainPose:
-        return self.chain.pose(np.zeros(len(self.chain.driven)))
+        return self.geometry.chain.pose(np.zeros(len(self.geometry.chain.driven)))
 
     @cached_property
     def _sole_up(self) -> FloatArray:
         """Direction in the last body's frame that points up while its sole is flat."""
-        return self._zero.end.rotation.T @ self.up
+        return self._zero.end.rotation.T @ self.geometry.up
 
     def _values(self, free: FloatArray) -> FloatArray:
         """Values of all driven joints [rad or m]; those that do not move the foot are at rest."""
-        values = self.chain.neutral()
-        values[list(self.plane.columns)] = free
+        values = self.geometry.chain.neutral()
+        values[list(self.geometry.plane.columns)] = free
         return values
 
     def _stance(self, values: FloatArray) -> Stance:
         """Stance at these values of all driven joints [rad or m]."""
-        pose = self.chain.pose(values)
-        foot, tilt, ahead = pose.point(self.foot), 0.0, 0.0
-        if self.plane.flat:
+        chain, plane, up = self.geometry.chain, self.geometry.plane, self.geometry.up
+        pose, tilt, ahead = chain.pose(values), 0.0, 0.0
+        foot = pose.point(self.geometry.leg.foot)
+        if plane.flat:
             sole_up = pose.end.rotation @ self._sole_up
-            tilt = float(np.arctan2(np.linalg.norm(np.cross(sole_up, self.up)), sole_up @ self.up))
-        if len(self.plane.pitch) > 1:
-            hip, knee = (pose.origins[self.chain.driven[c]] for c in self.plane.pitch[:2])
+            tilt = float(np.arctan2(np.linalg.norm(np.cross(sole_up, up)), sole_up @ up))
+        if len(plane.pitch) > 1:
+            hip, knee = (pose.origins[chain.driven[column]] for column in plane.pitch[:2])
             ahead = float(self.knee_side @ (knee - 0.5 * (hip + foot)))
         return Stance(values, float(np.linalg.norm(foot - self.target)), tilt, ahead)
 
     def _residual(self, free: FloatArray, start: FloatArray) -> FloatArray:
         """Foot's error over the leg's length, sole's tilt, distance from the start, stacked."""
-        pose = self.chain.pose(self._values(free))
-        miss = (pose.point(self.foot) - self.target) / self.plane.length
-        tilt = pose.end.rotation @ self._sole_up - self.up
-        parts = [miss, tilt] if self.plane.flat else [miss]
+        pose, plane = self.geometry.chain.pose(self._values(free)), self.geometry.plane
+        miss = (pose.point(self.geometry.leg.foot) - self.target) / plane.length
+        tilt = pose.end.rotation @ self._sole_up - self.geometry.up
+        parts = [miss, tilt] if plane.flat else [miss]
         return np.concatenate([*parts, _REGULARISATION * (free - start)])
 
     def _jacobian(self, free: FloatArray, start: FloatArray) -> FloatArray:
         """Derivative of `_residual`, shape (residuals, free)."""
         del start
-        pose = self.chain.pose(self._values(free))
-        miss = self.chain.point_jacobian(pose, pose.point(self.foot)) / self.plane.length
-        tilt = self.chain.direction_jacobian(pose, pose.end.rotation @ self._sole_up)
-        parts = [miss, tilt] if self.plane.flat else [miss]
-        rows = np.concatenate(parts)[:, list(self.plane.columns)]
+        chain, plane = self.geometry.chain, self.geometry.plane
+        pose = chain.pose(self._values(free))
+        miss = chain.point_jacobian(pose, pose.point(self.geometry.leg.foot)) / plane.length
+        tilt = chain.direction_jacobian(pose, pose.end.rotation @ self._sole_up)
+        parts = [miss, tilt] if plane.flat else [miss]
+        rows = np.concatenate(parts)[:, list(plane.columns)]
         return np.concatenate([rows, _REGULARISATION * np.eye(len(free))])
 
 
@@ -281,5 +277,5 @@ def _problems(geometries: Sequence[LegGeometry], share: float) -> list[StancePro
         target = plane.hip + up * (ground + leg.foot_radius - float(up @ plane.hip))
         inwards = np.sign(plane.forward @ (middle - plane.hip)) or 1.0
         side = plane.forward if len(geometries) == 2 else plane.forward * inwards
-        problems.append(StanceProblem(geometry.chain, plane, leg.foot, target, up, side))
+        problems.append(StanceProblem(geometry, target, side))
     return problems

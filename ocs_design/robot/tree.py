@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 from functools import cached_property
+from itertools import takewhile
 from pathlib import Path
 
 import numpy as np
@@ -156,6 +157,10 @@ class Tree:
         while body >= 0:
             yield body
             body = self.bodies[body].parent
+
+    def path(self, base: int, last: int) -> list[int]:
+        """Indices of the bodies from the first below `base` to `last`, its descendant."""
+        return list(takewhile(lambda body: body != base, self.ancestors(last)))[::-1]
 
     def placements(self, posture: Mapping[str, float]) -> tuple[Placement, ...]:
         """Frame of each body in the root's frame; joints missing in `posture` are at zero."""
