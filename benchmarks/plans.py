@@ -35,7 +35,7 @@ def main() -> None:
         plant = Gyrostat(INERTIA, np.asarray(axes), spin_inertia, 0.0)
         for factor in FACTORS:
             turn = TurnTo(name="turn", pitch=np.pi / 6.0, duration=0.385 * factor, jump_height=9.0)
-            boundary = turn.boundary(0.3)
+            boundary = turn.boundary()
             least_power_turn(boundary, plant, LINE)  # warm
             start = time.process_time()
             planned = least_power_turn(boundary, plant, LINE)

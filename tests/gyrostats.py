@@ -35,11 +35,17 @@ def body(incidence, spin_inertia=1.4e-4, inertia=FULL, armature=0.0):
 
 def drop(pitch, roll=0.0):
     height = STANDING + 0.5 * 9.81 * FALL**2
-    return Drop(name="drop", height=height, pitch=np.radians(pitch), roll=np.radians(roll))
+    return Drop(
+        name="drop",
+        standing_height=STANDING,
+        height=height,
+        pitch=np.radians(pitch),
+        roll=np.radians(roll),
+    )
 
 
 def boundary_of(maneuver):
-    return maneuver.boundary(STANDING)
+    return maneuver.boundary()
 
 
 def attitude_error(boundary, path):

@@ -228,10 +228,10 @@ def is_buildable(problem, drive, rims, material, slack=0.0):
     return seated & (stress * safety <= material.yield_strength * factor)
 
 
-def demand_of(maneuver, inertia, coupling, standing):
+def demand_of(maneuver, inertia, coupling):
     """Integral of the wheels' momentum, momentum at the end, and the time of a maneuver."""
     if isinstance(maneuver, Drop):
-        time = sqrt(2.0 * (maneuver.height - standing) / maneuver.gravity)
+        time = sqrt(2.0 * (maneuver.height - maneuver.standing_height) / maneuver.gravity)
         angles, left = _off_level(maneuver.roll, maneuver.pitch), np.zeros((2, 1))
     elif isinstance(maneuver, Flip):
         time, left = maneuver.duration, np.zeros((2, 1))
@@ -285,9 +285,7 @@ def _maneuver_margin(problem, drive, rims, maneuver, spin, angle):
     coupling = coupling_on(problem, drive, rims, angle)
     shares = np.stack([np.sin(angle), np.cos(angle)])
     inertia, coupling = release_unreached(inertia, coupling, shares, chord_of(maneuver))
-    through, left, time = demand_of(
-        maneuver, inertia, coupling, problem.requirement.standing_height
-    )
+    through, left, time = demand_of(maneuver, inertia, coupling)
     # A cosine of 1e-17 counts as zero.
     levers = np.where(shares > 1e-9, 2.0 * shares * spin, np.where(through != 0.0, 1e-30, 1.0))
     # Roll is half the difference of both wheels' angles, pitch half their sum.

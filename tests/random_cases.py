@@ -65,9 +65,7 @@ def random_case(seed):
     chosen = rng.permutation(len(MATERIALS))[: rng.integers(2, 4)]
     problem = SelectionProblem(
         robot=robot.mass_properties,
-        requirement=Requirement(
-            maneuvers, rng.choice([None, rng.uniform(0.5, 2.0)]), 1.0, None, standing
-        ),
+        requirement=Requirement(maneuvers, rng.choice([None, rng.uniform(0.5, 2.0)]), 1.0, None),
         envelope=_envelope(rng, scale.radius, mass),
         place=place_on_top(robot),
         motors=tuple(_motor(rng, f"motor {i}", scale, voltage) for i in range(count)),
@@ -108,6 +106,7 @@ def _maneuvers(rng, robot, size, standing):
     fall = float(rng.uniform(0.32, 0.5) * slow)
     yield Drop(
         name="drop",
+        standing_height=standing,
         height=standing + 9.81 * fall**2 / 2.0,
         pitch=float(radians(rng.choice([-1.0, 1.0]) * rng.uniform(10.0, 32.0))),
         roll=float(radians(rng.choice([0.0, rng.uniform(-10.0, 10.0)]))),

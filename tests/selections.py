@@ -75,7 +75,7 @@ def random_problem(seed, motors=3, *, mounted=True):
         robot=robot,
         requirement=Requirement(
             tuple(_maneuvers(rng, standing, fall, torque, time)),
-            rng.choice([None, rng.uniform(0.5, 1.5)]), 1.0, None, standing,
+            rng.choice([None, rng.uniform(0.5, 1.5)]), 1.0, None,
         ),
         envelope=envelope,
         place=Place(((0.005 * size, 0.0, 0.05 * size),) * 2, ((0.0, 1.1, 1.1), (0.0, -1.1, 1.1))),
@@ -121,7 +121,10 @@ def with_radius(problem, share):
 
 def _maneuvers(rng, standing, fall, torque, time):
     pitch, roll = np.radians(rng.uniform(15.0, 35.0)), np.radians(rng.choice([0.0, 8.0]))
-    yield Drop(name="drop", height=standing + fall, pitch=float(pitch), roll=float(roll))
+    yield Drop(
+        name="drop", standing_height=standing, height=standing + fall,
+        pitch=float(pitch), roll=float(roll),
+    )  # fmt: skip
     if rng.random() < 0.7:
         push = torque * rng.uniform(0.5, 2.0)
         yield Disturbance(

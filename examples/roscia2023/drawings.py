@@ -132,9 +132,7 @@ def momentum_figure(robot: Robot, flights: Flights) -> Figure:
             label=f"held at 7,200 rpm, α = {degrees(angle):.1f}°",
         )
     for name, marker in (("disturbance", "o"), ("drop", "s"), ("back-flip", "D")):
-        roll, pitch = 1e3 * flights.maneuvers[name].momentum(
-            TiltInertia.of(robot.inertia), robot.standing_height or 0.0
-        )
+        roll, pitch = 1e3 * flights.maneuvers[name].momentum(TiltInertia.of(robot.inertia))
         axes.plot(pitch, roll, marker, color=THIRD, label=f"asked for: {name}")
     axes.set_xlabel("pitch momentum [mN m s]")
     axes.set_ylabel("roll momentum [mN m s]")

@@ -70,8 +70,9 @@ def fly() -> Flights:
         outcome = design_ocs(asked, out=Path(folder) / "paper")
     at_once = Options(drop_at_once=True)
     step, _ = run_scenarios(Flown(outcome.robot, outcome.device, [drop], options=at_once))
+    height = outcome.robot.standing_height or 0.0
     return Flights(
-        {maneuver.name: maneuver for maneuver in maneuvers},
+        {each.name: replace(each, standing_height=height) for each in maneuvers},
         {(run.scenario, run.ocs): run for run in outcome.runs},
         step,
     )

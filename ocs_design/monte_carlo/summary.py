@@ -50,7 +50,7 @@ def attitude_error(outcomes: Outcomes, maneuver: Maneuver, number: int) -> Float
     error = attitude_errors(roll, pitch, maneuver)
     if maneuver.counts_turns:
         turned = outcomes.metric("turned_angle")[:, number]
-        error = np.maximum(error, np.abs(turned - maneuver.boundary(0.0).angle))
+        error = np.maximum(error, np.abs(turned - maneuver.boundary().angle))
     _, _, heading = landing_attitude(maneuver)
     if heading is not None:
         heading_error = outcomes.metric("heading_drift")[:, number] - heading

@@ -197,14 +197,13 @@ def spin_demands(
         per_motor = 0.0 if torque is None else per_wheel(torque, own_incidence)
         return SpinDemand(source, own_incidence, momentum, spin_inertia, per_motor)
 
-    total, height = TiltInertia.of(total_inertia), requirement.standing_height
-    demands = []
+    total, demands = TiltInertia.of(total_inertia), []
     for maneuver in requirement.maneuvers:
         own_incidence = incidence if maneuver.incidence is None else maneuver.incidence
         reached = total.within_reach(authority(own_incidence), maneuver.tilt_per_drift)
-        momentum = maneuver.momentum(reached, height)
-        torque = maneuver.least_torque(reached, height)
-        slew = maneuver.slew(reached, height)
+        momentum = maneuver.momentum(reached)
+        torque = maneuver.least_torque(reached)
+        slew = maneuver.slew(reached)
         _, pitch = slew.swept if slew.swept.any() else slew.momentum
         # Both wheels of a pair pitch the trunk the same way, but roll it in opposite ways.
         initial_speed = (

@@ -229,7 +229,7 @@ def robot_contradictions(
         yield "requirement: nothing is required: add a maneuver, rate_change or spin_inertia"
     for maneuver in requirement.maneuvers:
         try:
-            maneuver.momentum(TiltInertia.of(robot.inertia), requirement.standing_height)
+            maneuver.momentum(TiltInertia.of(robot.inertia))
         except OcsError as error:
             yield error.sentence
         with_wheels = maneuver.with_wheels(direct=specified.acts_about_vertical)

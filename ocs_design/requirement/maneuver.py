@@ -7,7 +7,7 @@ their kinds are in `pushes`, `turns` and `pivoted`, listed in `kinds`.
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
-from math import inf
+from math import inf, nan
 from typing import Annotated, Any, ClassVar, Self, TypeAlias
 
 import numpy as np
@@ -75,6 +75,8 @@ class Maneuver(ABC):
         gravity: [m/s^2]; 0 in orbit, where only turns and catches are possible.
         incidence: angle to which the modules are turned by hand [rad]; None: the design's.
         estimate: factor on the closed-form demand of a kind that is `estimated`.
+        standing_height: of the trunk above the ground, the robot on its feet [m]; nan: not known
+            yet.
         on_pivot: whether the robot is on a point or an edge of its trunk, its joints locked.
         on_feet: whether it is on its feet from start to end; otherwise it flies or floats.
         foreseen: whether its trajectory can be planned; otherwise feedback alone meets it.
@@ -93,6 +95,7 @@ class Maneuver(ABC):
         float | None, INCIDENCE, "angle, if the modules are turned by hand for this maneuver"
     ] = None
     estimate: float = 1.0
+    standing_height: float = nan
 
     on_pivot: ClassVar[bool] = False
     on_feet: ClassVar[bool] = False
@@ -105,11 +108,8 @@ class Maneuver(ABC):
     reducible: ClassVar[str] = ""
 
     @abstractmethod
-    def boundary(self, standing_height: float) -> Boundary:
+    def boundary(self) -> Boundary:
         """The boundary value problem.
-
-        Args:
-            standing_height: of the trunk above the ground [m].
 
         Raises:
             SpecificationError: no time is left for it.
@@ -220,15 +220,14 @@ class Maneuver(ABC):
         return inertia
 
     @abstractmethod
-    def momentum(self, inertia: TiltInertia, standing_height: float) -> FloatArray:
+    def momentum(self, inertia: TiltInertia) -> FloatArray:
         """Largest roll and pitch momentum of both wheels together, as magnitudes [N m s].
 
         Args:
             inertia: of the robot with its device, wheels braked.
-            standing_height: of the trunk above the ground [m].
         """
 
-    def least_torque(self, inertia: TiltInertia, standing_height: float) -> FloatArray:
+    def least_torque(self, inertia: TiltInertia) -> FloatArray:
         """Least torque of both wheels together on roll and on pitch [N m], shape (2,).
 
         A smaller torque cannot finish a turn in time, whatever the wheel; zero without a time limit
@@ -236,18 +235,16 @@ class Maneuver(ABC):
 
         Args:
             inertia: of the robot with its device, wheels braked.
-            standing_height: of the trunk above the ground [m].
         """
-        del inertia, standing_height
+        del inertia
         return np.zeros(2)
 
     @abstractmethod
-    def slew(self, inertia: TiltInertia, standing_height: float) -> Slew:
+    def slew(self, inertia: TiltInertia) -> Slew:
         """Slew that the motors must make for it (docs/theory.md, What a motor can do).
 
         Args:
             inertia: of the robot with its device, wheels braked; or of many of them.
-            standing_height: of the trunk above the ground [m].
         """
 
     def scaled(self, factor: float, *names: str) -> Self:
@@ -262,17 +259,16 @@ class Maneuver(ABC):
         return replace(self, **changes)
 
     @abstractmethod
-    def slower(self, factor: float, standing_height: float) -> Self:
+    def slower(self, factor: float) -> Self:
         """The maneuver with `factor` times the time: a higher fall or jump, a longer turn.
 
         Args:
             factor: positive; below 1: less time.
-            standing_height: of the trunk above the ground [m].
         """
 
-    def stretched(self, factor: float, standing_height: float) -> Self:
+    def stretched(self, factor: float) -> Self:
         """The maneuver with `factor` times the time both for its turn and for its flight."""
-        return self.slower(factor, standing_height)
+        return self.slower(factor)
 
     def milder(self, share: float) -> Self:
         """The maneuver with part of its tilt or push, 0..1."""

@@ -138,9 +138,8 @@ class Pivoted(Maneuver):
 
     on_pivot: ClassVar[bool] = True
 
-    def boundary(self, standing_height: float) -> Boundary:
+    def boundary(self) -> Boundary:
         """A turn to upright, from a tilt and, after a brake or an impulse, a rate."""
-        del standing_height
         angle = float(np.linalg.norm(self.tilt))
         axis = self.tilt / angle if angle > 0.0 else Y
         if angle == 0.0 and self.initial_rate.any():
@@ -174,11 +173,10 @@ class Pivoted(Maneuver):
     @property
     def momentum_of_body(self) -> FloatArray | None:
         """Momentum of the wheels [N m s], shape (2,)."""
-        return self.momentum(TiltInertia.uncoupled(np.ones(2)), 0.0)
+        return self.momentum(TiltInertia.uncoupled(np.ones(2)))
 
-    def slower(self, factor: float, standing_height: float) -> Self:
+    def slower(self, factor: float) -> Self:
         """More time until it is upright."""
-        del standing_height
         return self.scaled(factor, "duration")
 
     def on(self, body: MassProperties) -> Self:
@@ -323,24 +321,23 @@ class Pivoted(Maneuver):
                 f"along ({along}): it can turn about its edge only"
             )
 
-    def momentum(self, inertia: TiltInertia, standing_height: float) -> FloatArray:
+    def momentum(self, inertia: TiltInertia) -> FloatArray:
         """Momentum of the wheels when the torque changes its sign."""
-        del inertia, standing_height
+        del inertia
         axis, linear_swing = self._swing()
         return np.abs(axis) * linear_swing.torque * linear_swing.switch
 
-    def least_torque(self, inertia: TiltInertia, standing_height: float) -> FloatArray:
+    def least_torque(self, inertia: TiltInertia) -> FloatArray:
         """Least torque that does it in time, for the linear pendulum [N m], shape (2,)."""
-        del inertia, standing_height
+        del inertia
         axis, linear_swing = self._swing()
         return np.abs(axis) * linear_swing.torque
 
-    def slew(self, inertia: TiltInertia, standing_height: float) -> Slew:
+    def slew(self, inertia: TiltInertia) -> Slew:
         """A turn from rest to rest without gravity, with the same torque and largest momentum.
 
         A torque tau, and then -tau, for T_1 each turns an inertia I by tau T_1^2 / I.
         """
-        del standing_height
         axis, linear_swing = self._swing()
         shape = np.shape(inertia.diagonal)
         swept = np.broadcast_to(axis * linear_swing.torque * linear_swing.switch**2, shape)
@@ -478,22 +475,22 @@ class StandUp(Pivoted):
         """
         return _GRAVITY_SHARE_MAX / self.growth_rate if self.braked else inf
 
-    def momentum(self, inertia: TiltInertia, standing_height: float) -> FloatArray:
+    def momentum(self, inertia: TiltInertia) -> FloatArray:
         """Momentum of the wheels before braking, or when the torque changes its sign."""
         if self.braked:
             return self.estimate * np.abs(self._climb[:2])
-        return super().momentum(inertia, standing_height)
+        return super().momentum(inertia)
 
-    def least_torque(self, inertia: TiltInertia, standing_height: float) -> FloatArray:
+    def least_torque(self, inertia: TiltInertia) -> FloatArray:
         """Least torque of the motor [N m], shape (2,); zero with a brake."""
         if self.braked:
             return np.zeros(2)
-        return super().least_torque(inertia, standing_height)
+        return super().least_torque(inertia)
 
-    def slew(self, inertia: TiltInertia, standing_height: float) -> Slew:
+    def slew(self, inertia: TiltInertia) -> Slew:
         """Slew of the wheels; with a brake, the slow spin-up to their speed before it."""
         if not self.braked:
-            return super().slew(inertia, standing_height)
+            return super().slew(inertia)
         shape = np.shape(inertia.diagonal)
         momentum = np.broadcast_to(self.estimate * self._climb[:2], shape)
         return Slew(np.zeros(shape), momentum, SPIN_UP)

@@ -60,7 +60,7 @@ class Unforeseen(Maneuver):
     def time_left(self) -> float:
         """Time from the end of the torque until the trunk must be level and at rest again [s]."""
 
-    def boundary(self, standing_height: float) -> Boundary:
+    def boundary(self) -> Boundary:
         """A return to level in the time left after the torque, from level at its onset."""
         if self.time_left <= 0.0:
             raise SpecificationError(
@@ -75,21 +75,20 @@ class Unforeseen(Maneuver):
             0.0,
             self.time_left,
             push=self.push,
-            height=standing_height if self.on_feet else None,
+            height=self.standing_height if self.on_feet else None,
         )
 
-    def momentum(self, inertia: TiltInertia, standing_height: float) -> FloatArray:
+    def momentum(self, inertia: TiltInertia) -> FloatArray:
         """The impulse, which the wheels hold until touchdown (docs/theory.md, Disturbances)."""
-        del inertia, standing_height
+        del inertia
         return np.abs(self._impulse)
 
-    def slew(self, inertia: TiltInertia, standing_height: float) -> Slew:
+    def slew(self, inertia: TiltInertia) -> Slew:
         """Stop the trunk, turn it back and hold its momentum, from the end of the torque on.
 
         When a torque on a free trunk ends, it has tilted the trunk by half its impulse times its
         duration over the inertia.
         """
-        del standing_height
         momentum, shape = self._impulse, np.shape(inertia.diagonal)
         return Slew(
             np.broadcast_to(0.5 * self.duration * momentum, shape),
@@ -202,9 +201,8 @@ class Disturbance(Unforeseen):
         lost = 2.0 * self.gravity * gained * (self.onset + 0.5 * self.duration)
         return (later + sqrt(max(later**2 - lost, 0.0))) / self.gravity
 
-    def slower(self, factor: float, standing_height: float) -> Self:
+    def slower(self, factor: float) -> Self:
         """A higher jump, with `factor` times the time after the torque."""
-        del standing_height
         time = self.flight_time + (factor - 1.0) * self.time_left
         forward, _ = self.takeoff_velocity
         # The lift-off speed of `flight_time`, solved for.
@@ -263,9 +261,8 @@ class Shove(Unforeseen):
         """Torque as specified."""
         return Push(np.array(self.torque), 0.0, self.duration)
 
-    def slower(self, factor: float, standing_height: float) -> Self:
+    def slower(self, factor: float) -> Self:
         """More time to come to rest."""
-        del standing_height
         return self.scaled(factor, "settling")
 
     @property

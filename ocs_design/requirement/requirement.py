@@ -43,7 +43,6 @@ class Requirement:
         rate_change: of the trunk about roll and pitch, one at a time [rad/s]; None: not required.
         wheel_speed_max: of a wheel relative to the trunk [rad/s].
         spin_inertia: required of one wheel, in place of all else [kg m^2]; None: to be found.
-        standing_height: of the trunk above the ground, for maneuvers that end there [m].
         reserves: reserve of each maneuver, by name; maneuvers that are not listed have none.
         incidence_is_free: whether the incidence is still to be chosen.
         detection: time until a failed drive is detected [s], where the wheels must do everything
@@ -54,7 +53,6 @@ class Requirement:
     rate_change: float | None
     wheel_speed_max: float
     spin_inertia: float | None
-    standing_height: float
     reserves: Mapping[str, ManeuverReserve] = field(default_factory=dict)
     incidence_is_free: bool = False
     detection: float | None = None
@@ -88,7 +86,7 @@ class Requirement:
             with_rate: whether the trunk starts at the reserve's rate, whose momentum the wheels
                 hold to the end, in the direction of the momentum they hold anyway.
         """
-        slew, reserve = maneuver.slew(inertia, self.standing_height), self.reserve(maneuver)
+        slew, reserve = maneuver.slew(inertia), self.reserve(maneuver)
         factor, momentum = reserve.demand, slew.momentum
         if with_rate:
             factor = reserve.demand_with_rate

@@ -247,7 +247,7 @@ def _assumptions(
     requirement, envelope, choice = resolved.requirement, resolved.envelope, resolved.choice
     lands = any(maneuver.gravity and not maneuver.on_pivot for maneuver in requirement.maneuvers)
     if robot.standing_height is None and lands:
-        height = format_quantity(requirement.standing_height, "mm", 3)
+        height = format_quantity(standing_height(robot), "mm", 3)
         yield f"No legs: standing height {height}, Solo12's scaled by radius of gyration."
     if (box := assumed_trunk(robot)) is not None:
         sides = " x ".join(f"{2e3 * half:.0f}" for half in box.size)
@@ -399,13 +399,15 @@ def resolve(
     if specification.takes_default_maneuvers:
         maneuvers = default_maneuvers(robot, requirement_section.gravity or STANDARD_GRAVITY)
     worded = worded_maneuvers(requirement_section, robot, (maneuver.name for maneuver in maneuvers))
-    maneuvers = (*maneuvers, *worded.maneuvers)
+    height = standing_height(robot)
     requirement = Requirement(
-        maneuvers=maneuvers,
+        maneuvers=tuple(
+            replace(maneuver, standing_height=height)
+            for maneuver in (*maneuvers, *worded.maneuvers)
+        ),
         rate_change=requirement_section.rate_change,
         wheel_speed_max=requirement_section.wheel_speed_max or WHEEL_SPEED_MAX,
         spin_inertia=requirement_section.spin_inertia,
-        standing_height=standing_height(robot),
         detection=requirement_section.notices,
     ).on(robot.mass_properties)
     faults = tuple(
@@ -414,7 +416,7 @@ def resolve(
     if faults:
         raise SpecificationError(f"the specification does not fit {robot.name}:", problems=faults)
     # Faults of a file of distributions are reported before anything is sized.
-    default_uncertainty(requirement.standing_height, file=specification.reality.file)
+    default_uncertainty(height, file=specification.reality.file)
     choice = motor_choice(specification, robot)
     name = flywheel.material
     resolved = Resolved(

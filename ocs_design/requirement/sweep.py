@@ -88,11 +88,6 @@ class Task:
         """Maneuvers, specified or default."""
         return self.resolved.requirement.maneuvers
 
-    @property
-    def standing_height(self) -> float:
-        """Height of the trunk above the ground [m]."""
-        return self.resolved.requirement.standing_height
-
 
 POINTS_MIN, POINTS_MAX = 2, 200
 """Fewest and most points of a front."""
@@ -192,14 +187,13 @@ class ManeuverSweep(Sweep):
     """A figure of the maneuvers that turn the trunk.
 
     Attributes:
-        figure: of a maneuver that has one (`Maneuver.turned_by`), for the trunk's standing height
-            [m].
-        scaled: a maneuver with its figure multiplied by a ratio, for that height.
+        figure: of a maneuver that has one (`Maneuver.turned_by`).
+        scaled: a maneuver with its figure multiplied by a ratio.
         maneuver: the only one to vary; empty: all, in proportion, and the first gives the value.
     """
 
-    figure: Callable[[Maneuver, float], float]
-    scaled: Callable[[Maneuver, float, float], Maneuver]
+    figure: Callable[[Maneuver], float]
+    scaled: Callable[[Maneuver, float], Maneuver]
     maneuver: str = ""
 
     def present_value(self, task: Task) -> float:
@@ -220,9 +214,9 @@ class ManeuverSweep(Sweep):
 
     def at(self, value: float, task: Task) -> Specification:
         """Specification at another value (`Sweep.at`)."""
-        ratio, height = value / self.present_value(task), task.standing_height
+        ratio = value / self.present_value(task)
         return task.with_maneuvers(
-            lambda maneuver: self.scaled(maneuver, ratio, height), self._figures(task)
+            lambda maneuver: self.scaled(maneuver, ratio), self._figures(task)
         )
 
     def remarks(self, task: Task) -> tuple[str, ...]:
@@ -240,7 +234,7 @@ class ManeuverSweep(Sweep):
     def _figures(self, task: Task) -> Mapping[str, float]:
         """Figure of every maneuver that is varied, by the maneuver's name."""
         figures = {
-            maneuver.name: self.figure(maneuver, task.standing_height)
+            maneuver.name: self.figure(maneuver)
             for maneuver in task.maneuvers
             if self.maneuver in ("", maneuver.name) and maneuver.turned_by
         }
@@ -254,8 +248,8 @@ _SWEEPS = (
         Dimension.TIME,
         "ms",
         (0.8, 1.6),
-        lambda maneuver, height: maneuver.boundary(height).duration,
-        lambda maneuver, ratio, height: maneuver.stretched(ratio, height),
+        lambda maneuver: maneuver.boundary().duration,
+        lambda maneuver, ratio: maneuver.stretched(ratio),
     ),
     ManeuverSweep(
         "angle",
@@ -263,9 +257,9 @@ _SWEEPS = (
         Dimension.ANGLE,
         "deg",
         (0.4, 1.6),
-        lambda maneuver, _: hypot(*(getattr(maneuver, name) for name in maneuver.turned_by)),
+        lambda maneuver: hypot(*(getattr(maneuver, name) for name in maneuver.turned_by)),
         # Roll and pitch of a tilt keep their proportion.
-        lambda maneuver, ratio, _: maneuver.scaled(ratio, *maneuver.turned_by),
+        lambda maneuver, ratio: maneuver.scaled(ratio, *maneuver.turned_by),
     ),
     KeySweep(
         "radius",

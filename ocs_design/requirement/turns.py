@@ -42,22 +42,22 @@ class Reorientation(Maneuver):
         return self.angles
 
     @abstractmethod
-    def time(self, standing_height: float) -> float:
+    def time(self) -> float:
         """Time that the turn may take [s]."""
 
-    def momentum(self, inertia: TiltInertia, standing_height: float) -> FloatArray:
+    def momentum(self, inertia: TiltInertia) -> FloatArray:
         """Half the time speeding up, half slowing down: a peak rate of 2 theta / T."""
-        peak = 2.0 / self.time(standing_height)
+        peak = 2.0 / self.time()
         return np.abs(inertia.momentum(self.turn)) * peak
 
-    def least_torque(self, inertia: TiltInertia, standing_height: float) -> FloatArray:
+    def least_torque(self, inertia: TiltInertia) -> FloatArray:
         """Least torque of the turn from rest to rest, 4 I theta / T^2 [N m]."""
-        return 2.0 * self.momentum(inertia, standing_height) / self.time(standing_height)
+        return 2.0 * self.momentum(inertia) / self.time()
 
-    def slew(self, inertia: TiltInertia, standing_height: float) -> Slew:
+    def slew(self, inertia: TiltInertia) -> Slew:
         """The whole turn, rest to rest."""
         swept = inertia.momentum(self.turn)
-        return Slew(swept, np.zeros_like(swept), self.time(standing_height))
+        return Slew(swept, np.zeros_like(swept), self.time())
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -76,7 +76,7 @@ class Drop(Reorientation):
     milder_by: ClassVar[tuple[str, ...]] = turned_by
     reducible: ClassVar[str] = "tilt"
 
-    def boundary(self, standing_height: float) -> Boundary:
+    def boundary(self) -> Boundary:
         """A turn to level within the fall, from rest, pitched about y and then rolled about x."""
         attitude = product(from_axis_angle(Y, self.pitch), from_axis_angle(X, self.roll))
         vertical = scaled_vertical(attitude)
@@ -84,28 +84,28 @@ class Drop(Reorientation):
         axis = np.cross([0.0, 0.0, 1.0], vertical)
         length = float(np.linalg.norm(axis))
         axis = axis / length if length > 0.0 else Y
-        angle, duration = float(np.arctan2(length, vertical[2])), self.time(standing_height)
+        angle, duration = float(np.arctan2(length, vertical[2])), self.time()
         return Boundary(self.name, attitude, UPRIGHT, axis, angle, duration, height=self.height)
 
-    def time(self, standing_height: float) -> float:
+    def time(self) -> float:
         """Time from release until the feet of the levelled robot touch the ground [s].
 
         Raises:
             SpecificationError: the robot would already stand on the ground.
         """
-        fall = self.height - standing_height
+        fall = self.height - self.standing_height
         if fall <= 0.0:
             raise SpecificationError(
                 f"maneuver {self.name!r}: the trunk is released at {self.height:.3g} m, but stands "
-                f"at {standing_height:.3g} m: there is no fall",
+                f"at {self.standing_height:.3g} m: there is no fall",
                 hint="Release it higher.",
             )
         return float(np.sqrt(2.0 * fall / self.gravity))
 
-    def slower(self, factor: float, standing_height: float) -> Self:
+    def slower(self, factor: float) -> Self:
         """A higher fall."""
-        fall = (self.height - standing_height) * factor**2
-        return replace(self, height=standing_height + fall)
+        fall = (self.height - self.standing_height) * factor**2
+        return replace(self, height=self.standing_height + fall)
 
     @property
     def zero_demand(self) -> str:
@@ -147,21 +147,18 @@ class TimedTurn(Reorientation):
     jump_height: float
     duration: float
 
-    def time(self, standing_height: float) -> float:
+    def time(self) -> float:
         """Time as specified [s]."""
-        del standing_height
         return self.duration
 
-    def slower(self, factor: float, standing_height: float) -> Self:
+    def slower(self, factor: float) -> Self:
         """A longer turn; in a higher jump where it needs one."""
-        del standing_height
         longer = self.scaled(factor, "duration")
         higher = max(_LONGER_THAN_ITS_TURN * longer.duration / self.flight_time, 1.0) ** 2
         return longer.scaled(higher, "jump_height")
 
-    def stretched(self, factor: float, standing_height: float) -> Self:
+    def stretched(self, factor: float) -> Self:
         """A longer turn in the same part of a higher jump."""
-        del standing_height
         return self.scaled(factor, "duration").scaled(factor**2, "jump_height")
 
     def contradictions(self) -> Iterator[str]:
@@ -195,9 +192,8 @@ class Flip(TimedTurn):
     counts_turns: ClassVar[bool] = True
     turned_by: ClassVar[tuple[str, ...]] = ("angle",)
 
-    def boundary(self, standing_height: float) -> Boundary:
+    def boundary(self) -> Boundary:
         """A turn in pitch, from level."""
-        del standing_height
         final = from_axis_angle(Y, self.angle)
         return Boundary(self.name, UPRIGHT, final, Y, self.angle, self.duration)
 
@@ -287,9 +283,8 @@ class TurnTo(TimedTurn):
     estimated: ClassVar[bool] = True
     heading_matters: ClassVar[bool] = True
 
-    def boundary(self, standing_height: float) -> Boundary:
+    def boundary(self) -> Boundary:
         """A turn from level to the attitude, which is yaw, then pitch, then roll."""
-        del standing_height
         angles = np.array([self.roll, self.pitch, self.yaw])
         final = product(
             from_axis_angle(Z, self.yaw),
@@ -376,16 +371,15 @@ class TurnTo(TimedTurn):
         """Contribution of a change of heading to roll and to pitch [rad]."""
         return 0.0 if self.direct else loop_length(remainder(self.yaw, 2.0 * pi)) * 2.0 / pi
 
-    def momentum(self, inertia: TiltInertia, standing_height: float) -> FloatArray:
+    def momentum(self, inertia: TiltInertia) -> FloatArray:
         """Momentum of the tilt, half the time up and half down, of loop and initial rates."""
-        del standing_height
         peak = 2.0 * self.angles + np.copysign(self._loop, self.angles)
         turning = self.estimate * np.abs(inertia.momentum(peak)) / self.duration
         return np.asarray(turning + np.abs(self._initial_momentum(inertia)))
 
-    def slew(self, inertia: TiltInertia, standing_height: float) -> Slew:
+    def slew(self, inertia: TiltInertia) -> Slew:
         """The turn, and the momentum at lift-off, which the wheels hold until touchdown."""
-        turned, time = super().slew(inertia, standing_height), self._share * self.duration
+        turned, time = super().slew(inertia), self._share * self.duration
         # Wheels spin against a turn of the trunk, but with a rate that they absorb. A loop, and a
         # turn with a rate, need both.
         sense = any(self.rate) - any((self.roll, self.pitch, self.yaw))

@@ -36,11 +36,11 @@ def turn_of(maneuver: Maneuver, boundary: Boundary, *, drop_at_once: bool = Fals
     )
 
 
-def flight_time(maneuver: Maneuver, boundary: Boundary, standing_height: float) -> float:
+def flight_time(maneuver: Maneuver, boundary: Boundary) -> float:
     """Time until the feet of the levelled robot meet the ground, or a turn or a catch ends [s]."""
     if maneuver.on_pivot or not maneuver.gravity:
         return boundary.duration
-    drop = 0.0 if boundary.height is None else boundary.height - standing_height
+    drop = 0.0 if boundary.height is None else boundary.height - maneuver.standing_height
     # The push is counted as if at lift-off, which makes the flight a little too long.
     push_velocity = boundary.push.acceleration[2] * boundary.push.duration
     up = maneuver.takeoff[1] + max(push_velocity, 0.0)

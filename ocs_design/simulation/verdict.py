@@ -222,7 +222,7 @@ def _unsound(metrics: Metrics | None, maneuver: Maneuver, gate: float = MOMENTUM
 
 def _flight_failure(metrics: Metrics, maneuver: Maneuver) -> Verdict | None:
     """What was wrong up to touchdown; None if nothing."""
-    angle = maneuver.boundary(0.0).angle if maneuver.counts_turns else 0.0
+    angle = maneuver.boundary().angle if maneuver.counts_turns else 0.0
     if maneuver.counts_turns and abs(metrics.turned_angle - angle) > LANDING_TOLERANCE:
         share = f"{degrees_number(metrics.turned_angle)} of {np.degrees(angle):.0f} deg"
         failure = f"turns {share} before touchdown"
@@ -246,7 +246,7 @@ def landing_attitude(maneuver: Maneuver) -> tuple[float, float, float | None]:
     """Roll, pitch and heading specified for touchdown [rad]; None: any heading."""
     if maneuver.on_pivot or maneuver.end != End.ATTITUDE:
         return 0.0, 0.0, None
-    attitude = maneuver.boundary(0.0).final_attitude
+    attitude = maneuver.boundary().final_attitude
     roll, pitch = quaternions.tilt(attitude)
     return float(roll), float(pitch), float(quaternions.heading(attitude))
 

@@ -136,7 +136,8 @@ class WorldBuilder:
                 gravity_moment=pivoted.gravity_moment,
                 edge=pivoted.axis,
             )
-        boundary = maneuver.boundary(standing)
+        maneuver = replace(maneuver, standing_height=standing)
+        boundary = maneuver.boundary()
         turn = turn_of(maneuver, boundary, drop_at_once=self._options.drop_at_once)
         counted = boundary.axis if maneuver.counts_turns else Y
         if pivoted is not None and trajectory is None:
@@ -147,7 +148,7 @@ class WorldBuilder:
                 boundary, attitude=UPRIGHT, rate=np.zeros(3), wheel_speed=0.0, push=NO_PUSH
             )
             turn = NO_TURN
-        flight = flight_time(maneuver, boundary, standing)
+        flight = flight_time(maneuver, boundary)
         # Time simulated after touchdown: one second for Solo12 on Earth.
         settling = FroudeScale.of(self._robot).time(maneuver.gravity or STANDARD_GRAVITY)
         weight = float(model.body_mass.sum()) * maneuver.gravity

@@ -128,7 +128,7 @@ def levers(task: Task, driving_maneuver: str) -> Iterator[Lever]:
     if driving is not None:
 
         def longer(percent: int) -> Change:
-            slower = driving.slower(1.0 + percent / 100.0, task.standing_height)
+            slower = driving.slower(1.0 + percent / 100.0)
             text = f"{percent}% more time for one: {change_text(driving, slower)}"
             return Change(text, task.with_maneuvers(lambda _: slower, [driving_maneuver]))
 
@@ -161,9 +161,9 @@ def _time_lever(task: Task) -> Lever:
     """More time for all maneuvers."""
 
     def change(percent: int) -> Change:
-        factor, height = 1.0 + percent / 100.0, task.standing_height
+        factor = 1.0 + percent / 100.0
         names = [maneuver.name for maneuver in task.maneuvers]
-        longer = task.with_maneuvers(lambda maneuver: maneuver.slower(factor, height), names)
+        longer = task.with_maneuvers(lambda maneuver: maneuver.slower(factor), names)
         return Change(f"{percent}% more time for every maneuver", longer)
 
     return change

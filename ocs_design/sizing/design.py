@@ -14,6 +14,7 @@ from ocs_design.device.device import braked
 from ocs_design.device.layout import PAIR, Criterion
 from ocs_design.device.records.selection import CoDesignRecord
 from ocs_design.requirement.checks import contradictions
+from ocs_design.requirement.froude import standing_height
 from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.sweep import Task
 from ocs_design.requirement.vocabulary import CONTAINING, LIGHTEST, MORE_PAIRS, PYRAMID
@@ -192,7 +193,7 @@ def _by_selection(
     errors = SampledErrors.of(
         specification.reality,
         robot,
-        problem.requirement.standing_height,
+        standing_height(robot),
         ballistic=specification.validation.ballistic is True,
     )
     requirement, in_rings = problem.requirement, None

@@ -425,7 +425,7 @@ class _SampledManeuver:
         from_mass = drawn["mass_error"] * np.diag(problem.robot.inertia)[:2]
         diagonal = nominal.diagonal + from_inertia + from_mass
         inertia = TiltInertia(diagonal, np.broadcast_to(nominal.product, len(diagonal)))
-        slew = maneuver.slew(inertia, problem.requirement.standing_height)
+        slew = maneuver.slew(inertia)
         speed = maneuver.lift_off
         # A centre of mass off forward pitches the robot in push-off; one off to the left rolls it.
         off = drawn["com_error"][:, 1::-1] if errors.pushes_off else 0.0

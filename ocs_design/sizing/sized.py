@@ -103,7 +103,6 @@ def _spin_demands(problem: SelectionProblem, chosen: Candidate) -> Iterator[Spin
     """Demands of each part of the requirement, given the motors' data."""
     requirement = problem.requirement
     maneuvers = {maneuver.name: maneuver for maneuver in requirement.maneuvers}
-    height = requirement.standing_height
     for demand in chosen.demands:
         maneuver, incidence = maneuvers.get(demand.source), demand.incidence
         inertia = inertia_at(problem, chosen, incidence)
@@ -116,8 +115,8 @@ def _spin_demands(problem: SelectionProblem, chosen: Candidate) -> Iterator[Spin
             reached_inertia = inertia.within_reach(
                 np.abs(axes).max(axis=1), maneuver.tilt_per_drift
             )
-            momentum = maneuver.momentum(reached_inertia, height)
-            torque = float(gauge(axes, maneuver.least_torque(reached_inertia, height)).busiest)
+            momentum = maneuver.momentum(reached_inertia)
+            torque = float(gauge(axes, maneuver.least_torque(reached_inertia)).busiest)
         yield SpinDemand(demand.source, incidence, momentum, demand.spin_inertia, torque)
 
 

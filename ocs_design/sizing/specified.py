@@ -277,7 +277,7 @@ def require_survival(problem: SelectionProblem) -> None:
     momenta: dict[str, tuple[float | None, FloatArray]] = {
         maneuver.name: (maneuver.incidence, np.abs(slew.swept) + np.abs(slew.momentum))
         for maneuver in requirement.maneuvers
-        for slew in [maneuver.slew(inertia, requirement.standing_height)]
+        for slew in [maneuver.slew(inertia)]
     }
     if requirement.rate_change is not None:
         momenta["the rate change"] = None, np.ones(2)

@@ -53,9 +53,8 @@ def planned_turns(
     # CasADi takes a third of a second to import, and wheels without a motor do not need it.
     from ocs_design.sizing.trajectory.plans import plan  # noqa: PLC0415
 
-    demands, standing = None if reserve is None else reserve.demands, standing_height(robot)
-    mass_properties = robot.mass_properties
-    return plan(mass_properties, device, maneuvers, standing, demands, one_stops=one_stops)
+    demands = None if reserve is None else reserve.demands
+    return plan(robot.mass_properties, device, maneuvers, demands, one_stops=one_stops)
 
 
 def trajectories(plans: Mapping[str, "Reference"]) -> Mapping[str, Trajectory]:
@@ -169,6 +168,8 @@ def read_flights(
         path, robot_file, package_paths or {}, "say where it is with --robot FILE"
     )
     robot, warnings = read_recorded_robot(design.robot, location, strict=strict)
+    height = standing_height(robot)
+    maneuvers = tuple(replace(maneuver, standing_height=height) for maneuver in maneuvers)
     control = overridden(
         design.control or control_of(ValidationSection(), robot), specified.validation
     )

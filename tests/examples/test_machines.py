@@ -132,7 +132,7 @@ def test_rex_hopper_as_built_recovers_from_16_degrees(axis, hopper):
         built = Gyrostat(
             maneuver.inertia, device.axes, 6.60959e-3, 0.0, maneuver.gravity_moment, maneuver.axis
         )
-        planned = least_power_turn(maneuver.boundary(0.0), built, drive_line_of(device))
+        planned = least_power_turn(maneuver.boundary(), built, drive_line_of(device))
         assert (not planned.failure) == feasible
 
 

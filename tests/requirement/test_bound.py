@@ -116,7 +116,7 @@ def test_mujoco_confirms_the_demand_of_two_wheels_beside_the_trunk(axis, signs):
             ("0 -0.1 0.05", f"{-sine} {cosine} 0", spin, 6e-5, 0.1, signs[1]),
         ]
 
-    requirement = Requirement((), RATE_CHANGE, WHEEL_SPEED, None, 0.25)
+    requirement = Requirement((), RATE_CHANGE, WHEEL_SPEED, None)
     spin = 1e-4
     for _ in range(8):  # the total includes the wheels' own inertia
         _, total = spun_up(trunk, pair(spin), 0.0)
@@ -161,7 +161,7 @@ def test_zero_momentum_about_an_uncontrolled_axis_is_feasible():
 
 
 def test_momentum_about_an_uncontrolled_axis_is_an_infinite_demand_that_names_it():
-    requirement = Requirement((), 2.0, 750.0, None, 0.25)
+    requirement = Requirement((), 2.0, 750.0, None)
     roll, pitch = spin_demands(requirement, TOTAL, 0.0)
     assert (roll.source, roll.unreachable_axes) == ("rate change, roll", ("roll",))
     assert roll.spin_inertia == np.inf
@@ -180,11 +180,11 @@ def test_each_maneuver_has_its_own_incidence():
             onset=0.1,
             duration=0.05,
         ),
-        Drop(name="drop", height=1.0, pitch=np.radians(30.0)),
+        Drop(name="drop", standing_height=0.25, height=1.0, pitch=np.radians(30.0)),
         Flip(name="flip", gravity=1.62, incidence=0.0, jump_height=1.0, angle=-6.28, duration=2.0),
     )
     alpha = np.radians(40.0)
-    push, drop, flip = spin_demands(Requirement(maneuvers, None, 750.0, None, 0.25), TOTAL, alpha)
+    push, drop, flip = spin_demands(Requirement(maneuvers, None, 750.0, None), TOTAL, alpha)
     np.testing.assert_allclose(push.momentum, [0.01, 0.04])
     assert push.spin_inertia == pytest.approx(
         (0.01 / np.sin(alpha) + 0.04 / np.cos(alpha)) / (2 * 750.0)
@@ -197,7 +197,7 @@ def test_each_maneuver_has_its_own_incidence():
 def test_the_demand_of_a_braked_total_is_the_corrected_bound():
     """(I_r + I_f) d = I_f gamma, with the wheel included in the total."""
     required = corrected_bound(INERTIA, RATE_CHANGE, WHEEL_SPEED)
-    requirement = Requirement((), RATE_CHANGE, WHEEL_SPEED, None, 0.25)
+    requirement = Requirement((), RATE_CHANGE, WHEEL_SPEED, None)
     total = np.diag([0.03, INERTIA + required, 0.068])
     _, pitch = spin_demands(requirement, total, 0.0)
     assert 2 * pitch.spin_inertia == pytest.approx(required, rel=1e-14)

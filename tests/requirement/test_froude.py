@@ -1,5 +1,6 @@
 """The paper's maneuvers on Solo12, and Froude scaling to other robots."""
 
+from dataclasses import replace
 from pathlib import Path
 from unittest.mock import patch
 
@@ -56,8 +57,8 @@ def test_maneuvers_scale_with_size_and_mass(length, mass):
     small, large = FroudeScale(1.0, 1.0, 1.0), FroudeScale(length, inertia, inertia)
     moments = np.array([0.03, 0.05])
     for one, other in zip(maneuvers_of(small), maneuvers_of(large), strict=True):
-        rates = one.momentum(TiltInertia.uncoupled(moments), SOLO12_HEIGHT) / moments
-        scaled = other.momentum(TiltInertia.uncoupled(moments * inertia), SOLO12_HEIGHT * length)
+        rates = one.momentum(TiltInertia.uncoupled(moments)) / moments
+        scaled = other.momentum(TiltInertia.uncoupled(moments * inertia))
         scaled /= moments * inertia
         np.testing.assert_allclose(scaled * np.sqrt(length), rates, rtol=1e-9)
 
@@ -98,7 +99,9 @@ def test_without_legs_lengths_scale_with_the_radius_of_gyration(make_robot):
 def maneuvers_of(scale: FroudeScale, gravity: float = 9.81):
     """The default maneuvers of a robot of this scale."""
     with patch.object(FroudeScale, "of", return_value=scale):
-        return default_maneuvers(None, gravity)
+        maneuvers = default_maneuvers(None, gravity)
+    height = SOLO12_HEIGHT * scale.length
+    return [replace(each, standing_height=height) for each in maneuvers]
 
 
 def test_the_reference_values_are_those_of_solo12s_file():

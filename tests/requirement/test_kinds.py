@@ -12,10 +12,9 @@ from ocs_design.requirement.kinds import MANEUVER_KINDS
 from ocs_design.requirement.turns import Catch
 from ocs_design.robot.mass import MassProperties
 
-HEIGHT = 0.25
 BODY = MassProperties(2.5, np.array([0.01, 0.0, 0.02]), np.diag([0.03, 0.05, 0.07]))
 CATCH = Catch(name="catch", jump_height=0.5, rate=(0.4, -0.8, 0.0), duration=0.6)
-ALL_MANEUVERS = tuple(each.on(BODY) for each in (*MANEUVERS, CATCH))
+ALL_MANEUVERS = tuple(replace(each, standing_height=0.25).on(BODY) for each in (*MANEUVERS, CATCH))
 
 
 for_every_kind = pytest.mark.parametrize("maneuver", ALL_MANEUVERS, ids=lambda each: each.name)
@@ -35,7 +34,7 @@ def test_every_kind_is_tested():
 
 @for_every_kind
 def test_the_turn_leads_from_the_start_to_the_end(maneuver):
-    boundary = maneuver.boundary(HEIGHT)
+    boundary = maneuver.boundary()
     attitudes = [boundary.attitude, boundary.final_attitude]
     start, final = Rotation.from_quat(attitudes, scalar_first=True)
     turn = Rotation.from_rotvec(boundary.angle * boundary.axis)
@@ -52,7 +51,7 @@ def test_the_turn_leads_from_the_start_to_the_end(maneuver):
 @for_every_kind
 @pytest.mark.parametrize("factor", [0.9, 1.0, 1.4])
 def test_a_slower_maneuver_has_more_time_by_the_factor(maneuver, factor):
-    before, after = (each.boundary(HEIGHT) for each in (maneuver, maneuver.slower(factor, HEIGHT)))
+    before, after = (each.boundary() for each in (maneuver, maneuver.slower(factor)))
     assert after.duration == pytest.approx(factor * before.duration, rel=1e-12)
     np.testing.assert_array_equal(after.attitude, before.attitude)
 

@@ -27,9 +27,10 @@ def test_names_of_options_are_unique():
 def test_each_kind_of_maneuver_reads_each_of_its_fields():
     for kind in MANEUVER_KINDS.values():
         # Users cannot specify the ratio of plan to closed form, whether the wheels control yaw, or
-        # the robot's mass.
+        # the robot's height and mass.
         assert set(kind.values) == {item.name for item in fields(kind.maneuver)} - {
             "estimate",
+            "standing_height",
             "stretch",
             "direct",
             "body",

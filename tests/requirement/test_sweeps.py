@@ -75,7 +75,7 @@ def test_longer_falls_and_flips_start_higher(task):
         SWEEPS["time"], 2.0 * SWEEPS["time"].present_value(task(WITH_ROLL)), task(WITH_ROLL)
     )
     push, drop, flip = longer.maneuvers
-    standing = longer.standing_height
+    standing = drop.standing_height
     assert drop.height - standing == pytest.approx(4.0 * (0.8 - standing))
     assert (drop.roll, drop.pitch) == pytest.approx((radians(-12.0), radians(9.0)))
     assert flip.duration == pytest.approx(1.5)

@@ -34,7 +34,7 @@ BRAKED = StandUp(
 
 
 def _flown(device, *maneuvers):
-    plans = plan(ROBOT.mass_properties, device, maneuvers, 0.2)
+    plans = plan(ROBOT.mass_properties, device, maneuvers)
     references = {
         name: reference.trajectory for name, reference in plans.items() if reference.trajectory
     }
@@ -70,13 +70,13 @@ def test_a_brake_stands_a_robot_up_whose_motors_cannot():
     assert not without.passed
     by_motor = replace(BRAKED, name="motor", actuation="motor")
     assert plans["braked"].trajectory.rate[0, 0] > 0.0
-    refused = plan(ROBOT.mass_properties, heavy, [by_motor], 0.2)["motor"]
+    refused = plan(ROBOT.mass_properties, heavy, [by_motor])["motor"]
     assert refused.trajectory is None
     assert "cannot stand it up from 45 deg in 0.7 s: from" in refused.note
 
 
 def test_a_brake_cannot_stop_wheels_faster_than_the_motors_spin_them():
-    refused = plan(ROBOT.mass_properties, driven_device(), [BRAKED], 0.2)["braked"]
+    refused = plan(ROBOT.mass_properties, driven_device(), [BRAKED])["braked"]
     assert refused.trajectory is None
     match = re.fullmatch(
         r"the brake would have to stop the wheels from ([\d,]+) rpm, but the motors reach only "

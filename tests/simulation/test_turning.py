@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 from wheels import driven_device
 
-from ocs_design.requirement.froude import standing_height
 from ocs_design.requirement.turns import Catch, TurnTo
 from ocs_design.simulation.scenario import Flights, run_scenarios
 from ocs_design.simulation.scene import Wheels, total_mass_properties
@@ -30,7 +29,7 @@ STOP = replace(LEVEL, name="stop", end="at rest")
 def flown(solo12):
     maneuvers = (YAW, YAW_AND_PITCH, LEVEL, STOP)
     device = driven_device()
-    plans = plan(solo12.mass_properties, device, maneuvers, standing_height(solo12))
+    plans = plan(solo12.mass_properties, device, maneuvers)
     references = {name: reference.trajectory for name, reference in plans.items()}
     runs = run_scenarios(Flights(solo12, device, maneuvers, references=references))
     return plans, {run.scenario: run for run in runs if run.ocs}

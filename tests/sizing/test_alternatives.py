@@ -52,9 +52,7 @@ def flips_by_hand(task):
 
 
 def slower_maneuvers(task):
-    return tuple(
-        each.slower(1.0 + MORE_TIME / 100.0, task.standing_height) for each in task.maneuvers
-    )
+    return tuple(each.slower(1.0 + MORE_TIME / 100.0) for each in task.maneuvers)
 
 
 @pytest.mark.slow

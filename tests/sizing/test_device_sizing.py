@@ -33,7 +33,7 @@ ENVELOPE = envelope_with(
     stress_safety=2.0,
 )  # fmt: skip
 SPEED = 754.0
-DROP = Drop(name="drop", height=1.0, pitch=np.radians(30.0))
+DROP = Drop(name="drop", standing_height=0.25, height=1.0, pitch=np.radians(30.0))
 BACK_FLIP = replace(gyrostats.BACK_FLIP, incidence=0.0)
 MANEUVERS = (PUSH, DROP, BACK_FLIP)
 
@@ -43,7 +43,7 @@ def place(outer_radius, height):
 
 
 def require(*maneuvers, rate_change=None, wheel_speed_max=SPEED, spin_inertia=None):
-    return Requirement(maneuvers, rate_change, wheel_speed_max, spin_inertia, 0.25)
+    return Requirement(maneuvers, rate_change, wheel_speed_max, spin_inertia)
 
 
 def problem_of(requirement, envelope=ENVELOPE, *, incidence=None, criterion=Criterion.EQUAL_RATE):

@@ -573,11 +573,10 @@ def test_the_sizing_counts_the_mast(column):
     assert float(mount[1]) == pytest.approx(caught.value.problem.robot.mass - robot.mass, rel=1e-3)
     resolved, design = falling(0.66, robot)
     total, (fall,) = design.sized.total, resolved.requirement.maneuvers
-    height = resolved.requirement.standing_height
     assert total.mass == pytest.approx(robot.mass + design.device.mass)
     assert design.device.plate.mast is not None
     # The turn accelerates for half of the angle and brakes for half, at the peak torque at most.
-    time = fall.slew(TiltInertia.uncoupled(np.diag(total.inertia)[:2]), height).duration
+    time = fall.slew(TiltInertia.uncoupled(np.diag(total.inertia)[:2])).duration
     torque = 2.0 * np.cos(design.device.incidence) * design.choice.chosen.motor.peak_torque
     assert time >= 2.0 * sqrt(total.inertia[1, 1] * pi / 6.0 / torque)
 

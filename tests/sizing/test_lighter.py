@@ -71,9 +71,7 @@ def test_each_change_reaches_the_mass_and_is_the_smallest_that_does():
 
     def mass_if_slower(percent):
         """Mass of the device with this much more time for every maneuver."""
-        maneuvers = tuple(
-            each.slower(1.0 + percent / 100.0, task.standing_height) for each in task.maneuvers
-        )
+        maneuvers = tuple(each.slower(1.0 + percent / 100.0) for each in task.maneuvers)
         specified = replace(
             task.specification, requirement=RequirementSection(), maneuvers=maneuvers
         )

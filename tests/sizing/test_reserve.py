@@ -15,7 +15,6 @@ from ocs_design.monte_carlo.campaign import fly_samples, make_campaign
 from ocs_design.monte_carlo.summary import attitude_error
 from ocs_design.monte_carlo.uncertainty import Uncertainty
 from ocs_design.requirement.bound import roll_momentum_per_rate
-from ocs_design.requirement.froude import standing_height
 from ocs_design.requirement.reading import parse_specification
 from ocs_design.requirement.requirement import ManeuverReserve, Requirement
 from ocs_design.requirement.specification import merge
@@ -90,7 +89,7 @@ def flights(more):
     design, task = design_of(more, 0.5), task_with(more)
     robot, specification = task.robot, task.specification
     (maneuver,) = design.choice.problem.requirement.maneuvers
-    plans = plan(robot.mass_properties, design.device, [maneuver], standing_height(robot))
+    plans = plan(robot.mass_properties, design.device, [maneuver])
     references = {name: each.trajectory for name, each in plans.items()}
     campaign = make_campaign(
         Flights(robot, design.device, [maneuver], references=references),
@@ -160,7 +159,7 @@ def test_a_maneuver_without_demand_is_not_the_worst():
 def test_an_initial_rate_adds_momentum_until_the_end():
     """0.03 kg m^2 at 0.1 rad/s are 3 mN m s; the swept momentum of a turn is 2 pi I_yy."""
     reserves = {"flip": ManeuverReserve(1.1, (0.1, 0.02), 0.9)}
-    requirement = Requirement((FLIP,), None, 1.0, None, 0.27, reserves)
+    requirement = Requirement((FLIP,), None, 1.0, None, reserves)
     inertia = TiltInertia.uncoupled([0.03, 0.055])
     plain = requirement.slew(FLIP, inertia)
     with_rate = requirement.slew(FLIP, inertia, with_rate=True)
@@ -254,7 +253,7 @@ def test_a_roll_rate_at_lift_off_requires_larger_wheels_or_another_incidence():
 
 def test_roll_momentum_is_required_only_of_wheels_that_control_roll_but_not_yaw():
     inertia, axes = TiltInertia.uncoupled([0.03, 0.05]), np.eye(3)
-    requirement = Requirement((FLIP,), None, 1.0, None, 0.27)
+    requirement = Requirement((FLIP,), None, 1.0, None)
     assert roll_cancelling_momentum(0.1, inertia, 0.04, axes, requirement) == 0.0
     assert roll_cancelling_momentum(0.1, inertia, 0.04, axes[:, 1:2], requirement) == 0.0
     free = replace(requirement, incidence_is_free=True)

@@ -88,7 +88,7 @@ def test_the_lightest_device_recomputed_from_its_dimensions(solved):
     for maneuver in problem.requirement.maneuvers:
         angle = device.incidence if maneuver.incidence is None else maneuver.incidence
         inertia = TiltInertia.of(by_pinocchio(problem, device, angle).inertia)
-        slew = maneuver.slew(inertia, problem.requirement.standing_height)
+        slew = maneuver.slew(inertia)
         axes = module_axes(angle)[:2]
         task = WheelTask(slew.swept, slew.momentum, slew.duration, inertia, axes)
         drag = armature(motor.rotor_inertia, gear)
@@ -244,7 +244,7 @@ def test_a_refusal_names_sufficient_changes():
 
 def test_incomplete_problems_are_refused():
     problem = random_problem(9)
-    empty = Requirement((), None, 1.0, None, 0.3)
+    empty = Requirement((), None, 1.0, None)
     with pytest.raises(UsageError, match="nothing is required"):
         select(replace(problem, requirement=empty))
     with pytest.raises(UsageError, match="no motors"):
@@ -265,13 +265,12 @@ def test_a_specified_wheel_speed_is_a_limit():
 
 def test_maneuvers_with_modules_turned_by_hand_do_not_affect_the_incidence():
     problem = direct_only(random_problem(9), incidence=None)
-    standing = problem.requirement.standing_height
     roll = Disturbance(
         name="push", takeoff_velocity=(0.5, 2.0), torque=(0.2, 0.0, 0.0), onset=0.1, duration=0.05
     )
     flip = Flip(name="flip", gravity=1.62, incidence=0.0, jump_height=1.0, angle=-3.0, duration=2.0)
     motors = tuple(replace(motor, peak_torque=50.0) for motor in problem.motors)
-    requirement = Requirement((roll, flip), None, 1.0, None, standing)
+    requirement = Requirement((roll, flip), None, 1.0, None)
     device = lightest(replace(problem, requirement=requirement, motors=motors))
     assert {demand.source: demand.incidence for demand in device.demands}["flip"] == 0.0
     assert device.incidence > 0.5  # Only roll is required at the design's own incidence.

@@ -175,7 +175,7 @@ def test_axes_longer_than_one_bound_those_of_a_range():
     least = LeastInertia(inertia, np.zeros(1))
     task = bound_task(maneuver, problem.requirement, least, [interval], PAIR)
     load = task.load()
-    slew = maneuver.slew(inertia, problem.requirement.standing_height)
+    slew = maneuver.slew(inertia)
     roll, pitch = (np.abs(slew.swept) / shares)[0]
     assert load.excess[0, 0] == pytest.approx((roll + pitch) / 2.0, rel=1e-12)
     compliance = shares**2 / 0.05

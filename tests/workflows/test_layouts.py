@@ -249,11 +249,8 @@ def test_wheels_share_the_supply_in_sizing_and_planning(layout):
     designed = design_device(task)
     power = designed.choice.chosen.line.power_max
     assert drive_line_of(designed.device).power_max == pytest.approx(power, rel=1e-9)
-    standing = task.resolved.requirement.standing_height
     maneuvers = task.resolved.requirement.maneuvers
-    for reference in plan(
-        task.robot.mass_properties, designed.device, maneuvers, standing
-    ).values():
+    for reference in plan(task.robot.mass_properties, designed.device, maneuvers).values():
         assert reference.trajectory is not None, reference.note
 
 
@@ -269,8 +266,7 @@ def test_wheels_with_authority_about_yaw_are_sized_for_a_direct_turn(layout, dir
     assert (turn.turn == 0.0).all() == direct
     if direct:
         designed = design_device(task)
-        standing = task.resolved.requirement.standing_height
-        plans = plan(task.robot.mass_properties, designed.device, (turn,), standing)
+        plans = plan(task.robot.mass_properties, designed.device, (turn,))
         assert plans[turn.name].share < 1.0
         (demand,) = designed.choice.chosen.demands
         assert demand.spin_inertia == pytest.approx(designed.device.flywheel.spin_inertia, rel=2e-2)

@@ -138,12 +138,10 @@ def design_momenta(requirement: Requirement, inertia: FloatArray) -> FloatArray:
     level: the cube root of a tiny figure is large. `inertia`: of the robot with its device, wheels
     braked [kg m^2], shape (3, 3).
     """
-    whole, height = TiltInertia.of(inertia), requirement.standing_height
+    whole = TiltInertia.of(inertia)
     alone = TiltInertia.uncoupled(whole.diagonal)
     found = [
-        maneuver.momentum(
-            whole if whole.drifts_off_level(maneuver.tilt_per_drift).any() else alone, height
-        )
+        maneuver.momentum(whole if whole.drifts_off_level(maneuver.tilt_per_drift).any() else alone)
         for maneuver in requirement.maneuvers
         if maneuver.incidence is None
     ]

@@ -164,9 +164,8 @@ def with_limit(problem: SelectionProblem, limit: Limit, value: float) -> Selecti
 
 def with_time(problem: SelectionProblem, factor: float, names: set[str]) -> SelectionProblem:
     """The problem with `factor` times the time for the maneuvers of these names."""
-    requirement, height = problem.requirement, problem.requirement.standing_height
-    longer = requirement.changed(
-        lambda maneuver: maneuver.slower(factor, height) if maneuver.name in names else maneuver
+    longer = problem.requirement.changed(
+        lambda maneuver: maneuver.slower(factor) if maneuver.name in names else maneuver
     )
     return replace(problem, requirement=longer)
 

@@ -258,7 +258,7 @@ def _parts(
         if maneuver.estimated:
             # The closed forms treat a full loop as part of it in part of the time, and a swing as a
             # turn there and back.
-            time = maneuver.boundary(requirement.standing_height).duration
+            time = maneuver.boundary().duration
         yield RequirementPart(
             maneuver.name, incidences, time, needed, demand_ratio, slew_reason(task, line)[0]
         )

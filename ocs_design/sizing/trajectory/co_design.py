@@ -234,7 +234,7 @@ class FreeDevice:
         requirement = self.problem.requirement
         for maneuver in requirement.maneuvers:
             incidence = maneuver.incidence
-            boundary = maneuver.boundary(requirement.standing_height)
+            boundary = maneuver.boundary()
             gyrostat = _gyrostat(
                 self.problem, start, start.incidence if incidence is None else incidence
             )

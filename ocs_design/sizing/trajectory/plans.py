@@ -125,7 +125,6 @@ def plan(
     robot: MassProperties,
     device: "Device",
     maneuvers: Sequence[Maneuver],
-    standing_height: float,
     kept: Mapping[str, float] | None = None,
     *,
     one_stops: bool = False,
@@ -136,7 +135,7 @@ def plan(
         robot: without the device, in B.
         device: with a real motor.
         maneuvers: each at its own incidence, if it has one.
-        standing_height, one_stops: see `reference`.
+        one_stops: see `reference`.
         kept: factor on the demand that the device keeps in reserve for a maneuver, by name; 1 if
             absent.
     """
@@ -147,7 +146,7 @@ def plan(
         gyrostat = gyrostat_of(robot, device_there, maneuver_there)
         factor = factors.get(maneuver.name, 1.0)
         references[maneuver.name] = reference(
-            gyrostat, line, maneuver_there, standing_height, factor, one_stops=one_stops
+            gyrostat, line, maneuver_there, factor, one_stops=one_stops
         )
     return references
 
@@ -156,7 +155,6 @@ def reference(
     gyrostat: Gyrostat,
     line: DriveLine,
     maneuver: Maneuver,
-    standing_height: float,
     kept: float = 1.0,
     *,
     one_stops: bool = False,
@@ -173,14 +171,13 @@ def reference(
         line: voltage line of the drives, without reserve.
         maneuver: of robot and device (`Maneuver.on`); an unforeseen one gets no reference, but a
             robot on a pivot gets the gains that balance it.
-        standing_height: of the trunk above the ground [m].
         kept: factor on the demand that the device keeps in reserve.
         one_stops: whether the other wheels must be able to follow it after any one drive has
             stopped.
     """
     if not maneuver.foreseen and not gyrostat.stands:
         return Reference(None, _UNFORESEEN)
-    boundary = maneuver.boundary(standing_height)
+    boundary = maneuver.boundary()
     if not maneuver.foreseen:
         return Reference(_with_balancing(gyrostat, line, boundary.duration), "")
     braked_speed = 0.0

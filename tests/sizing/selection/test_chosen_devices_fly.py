@@ -19,9 +19,7 @@ def test_a_selected_device_passes_within_its_motors_limits(seed):
     problem, requirement = case.problem, case.problem.requirement
     chosen = select(problem).best
     device = assemble_selected(chosen)
-    plans = plan(
-        case.robot.mass_properties, device, requirement.maneuvers, requirement.standing_height
-    )
+    plans = plan(case.robot.mass_properties, device, requirement.maneuvers)
     runs = run_scenarios(
         Flights(
             case.robot,

@@ -157,8 +157,7 @@ def test_demands_use_the_inertia_with_the_device(solution):
         inertia, coupling = inertia_at(problem, device, angle)
         # Full and small turns may leave an axis that the wheels do not control free.
         inertia, coupling = release_unreached(inertia, coupling, shares, 0.0)
-        height = problem.requirement.standing_height
-        swept, _, time = demand_of(turn, inertia, coupling, height)
+        swept, _, time = demand_of(turn, inertia, coupling)
         momentum = 2.0 * np.abs(swept[:, 0]) / time
         np.testing.assert_allclose(demands[turn.name].momentum, momentum, rtol=1e-9, atol=1e-15)
         torque = (2.0 * momentum / time / levers).sum()

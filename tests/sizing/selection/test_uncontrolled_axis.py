@@ -12,7 +12,7 @@ from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.selection.select import select
 from ocs_design.sizing.sized import sized_selection
 
-DROP = Drop(name="drop", height=3.0, pitch=np.radians(30.0))
+DROP = Drop(name="drop", standing_height=0.25, height=3.0, pitch=np.radians(30.0))
 FULL_FLIP = Flip(name="flip", jump_height=3.0, angle=-2.0 * np.pi, duration=2.0)
 HALF_FLIP = replace(FULL_FLIP, angle=np.pi)
 

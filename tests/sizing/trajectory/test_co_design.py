@@ -108,12 +108,12 @@ def test_the_co_design_is_never_heavier_and_explains_its_result(solved):
 def test_its_maneuvers_are_feasible_on_the_fine_grid(solved):
     problem, selected, result = solved
     assert len(result.flights) == len(problem.requirement.maneuvers)
-    line, standing = selected.line.reserved(), problem.requirement.standing_height
+    line = selected.line.reserved()
     for maneuver, flight in zip(problem.requirement.maneuvers, result.flights, strict=True):
         angle = result.device.incidence if maneuver.incidence is None else maneuver.incidence
         wheels = Gyrostat(np.eye(3), module_axes(angle), 1.0)
         assert flight.violation < 1e-6
-        assert attitude_error(maneuver.boundary(standing), flight.trajectory) < 1e-4
+        assert attitude_error(maneuver.boundary(), flight.trajectory) < 1e-4
         assert end_rate(wheels, flight.trajectory) < 1e-4
         assert flight.defect < 1e-4
         assert np.abs(flight.trajectory.wheel_torque).max() <= line.torque_limit * (1.0 + 1e-6)

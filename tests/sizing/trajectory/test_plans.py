@@ -58,10 +58,11 @@ def test_unknown_figures_do_not_limit():
 
 @pytest.fixture(scope="module")
 def plans():
-    drop = Drop(name="drop", height=STANDING + 9.81 * 0.385**2 / 2.0, pitch=np.radians(20.0))
+    height = STANDING + 9.81 * 0.385**2 / 2.0
+    drop = Drop(name="drop", standing_height=STANDING, height=height, pitch=np.radians(20.0))
     turned = replace(BACK_FLIP, angle=-1.5, incidence=0.0)
     device = driven_device(np.radians(40.0))
-    return plan(ROBOT.mass_properties, device, (drop, PUSH, turned), STANDING)
+    return plan(ROBOT.mass_properties, device, (drop, PUSH, turned))
 
 
 def test_each_turn_has_a_plan_and_a_push_has_none(plans):

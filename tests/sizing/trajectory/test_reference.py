@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 from driven_wheels import EC45_LINE
-from gyrostats import BACK_FLIP, DIAGONAL, FULL, PUSH, STANDING, body, drop
+from gyrostats import BACK_FLIP, DIAGONAL, FULL, PUSH, body, drop
 
 from ocs_design.actuation.drive import DriveLine
 from ocs_design.device.layout import ISOTROPIC, Layout, LayoutName
@@ -25,7 +25,7 @@ FORTY = np.radians(40.0)
 
 @pytest.mark.parametrize("kept", [1.0, 1.05])
 def test_a_reference_leaves_margins_for_feedback_and_reserve(kept):
-    planned = reference(body(FORTY, 1.4e-4), EC45_LINE, drop(30.0), STANDING, kept)
+    planned = reference(body(FORTY, 1.4e-4), EC45_LINE, drop(30.0), kept)
     path, line = planned.trajectory, EC45_LINE.reserved(PLANNED / kept)
     assert planned.note == path.note == ""
     assert limit_violation(path.wheel_speed, path.wheel_torque, line) < 1e-6
@@ -35,7 +35,7 @@ def test_a_reference_leaves_margins_for_feedback_and_reserve(kept):
 
 def test_a_reference_that_needs_the_whole_drive_says_so():
     """A wheel between the smallest one for the full drive and that with its margin."""
-    planned = reference(body(FORTY, 9.2e-5), EC45_LINE, drop(30.0), STANDING)
+    planned = reference(body(FORTY, 9.2e-5), EC45_LINE, drop(30.0))
     assert f"{PLANNED:.1%}" in planned.note
     path = planned.trajectory
     assert path.note == planned.note
@@ -45,13 +45,13 @@ def test_a_reference_that_needs_the_whole_drive_says_so():
 
 
 def test_infeasible_turns_have_no_reference():
-    planned = reference(body(FORTY, 6e-5), EC45_LINE, drop(30.0), STANDING)
+    planned = reference(body(FORTY, 6e-5), EC45_LINE, drop(30.0))
     assert planned.trajectory is None
     assert "no optimal turn was found (no solution within the limits in" in planned.note
 
 
 def test_a_push_has_no_reference():
-    planned = reference(body(FORTY), EC45_LINE, PUSH, STANDING)
+    planned = reference(body(FORTY), EC45_LINE, PUSH)
     assert planned.trajectory is None
     assert "feedback" in planned.note
 
@@ -61,7 +61,7 @@ def test_a_turn_that_is_too_fast_is_refused_with_a_feasible_time():
     """The theory's table has 2 s for these wheels, within 5 % of the named time."""
     yaw = TurnTo(name="yaw", jump_height=1.0, yaw=np.pi / 2.0, duration=1.7)
     gyrostat = body(np.radians(39.0), 1.05e-4, DIAGONAL)
-    planned = reference(gyrostat, EC45_LINE, yaw, STANDING)
+    planned = reference(gyrostat, EC45_LINE, yaw)
     assert planned.trajectory is None
     match = re.fullmatch(r".* this turn in 1.7 s: they need (.*) s", planned.note)
     assert match
@@ -78,7 +78,7 @@ def test_a_plan_survives_the_failure_of_any_drive_at_its_start(layout):
     axes = Layout(layout).axes(ISOTROPIC)
     for inertia, survives in ((4e-4, True), (2e-4, False)):
         gyrostat = Gyrostat(FULL, axes, inertia)
-        planned = reference(gyrostat, EC45_LINE, BACK_FLIP, STANDING, one_stops=True)
+        planned = reference(gyrostat, EC45_LINE, BACK_FLIP, one_stops=True)
         worst = 0.0
         for lost in range(axes.shape[1]):
             left = np.delete(axes, lost, axis=1)
@@ -106,7 +106,7 @@ def test_the_supply_is_sufficient_whenever_a_drive_fails():
     pitch = TurnTo(name="turn", pitch=np.pi / 4.0, duration=10.0, gravity=0.0, jump_height=9.0)
     shares = {}
     for one_stops in (True, False):
-        path = reference(gyrostat, line, pitch, STANDING, one_stops=one_stops).trajectory
+        path = reference(gyrostat, line, pitch, one_stops=one_stops).trajectory
         assert path.note == ""
         largest = 0.0
         for lost in range(4):
@@ -135,7 +135,7 @@ def test_the_heading_loop_of_a_tall_body_leaves_larger_margins():
     for shape in ((3.2, 3.2, 0.9), (0.9, 0.9, 3.2)):
         for inertia in (2e-2, 8e-3):
             gyrostat = Gyrostat(np.diag(shape), axes, inertia)
-            planned[shape[0], inertia] = reference(gyrostat, line, yaw, STANDING)
+            planned[shape[0], inertia] = reference(gyrostat, line, yaw)
     assert planned[3.2, 2e-2].share == TALL_SHARE_MAX
     assert planned[0.9, 2e-2].share == GENTLE_SHARES[0]
     assert planned[3.2, 2e-2].missing_demand(yaw.end) is None
