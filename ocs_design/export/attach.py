@@ -36,18 +36,14 @@ def attach_device(spec: mujoco.MjSpec, robot: Robot, device: Device) -> None:
     frame = attached.worldbody.add_frame()
     limit = bodies.largest_torque(device.motor)
     for device_body in device_bodies:
-        body = inertial(device_body.mass_properties)
+        mass_properties, _ = inertial(device_body.mass_properties)
         place = base @ device_body.place
         # Attaching prepends the prefix to the names.
         added = attached.worldbody.add_body(
             name=device_body.name.removeprefix(bodies.PREFIX),
             pos=place.position,
             quat=quaternion(place.rotation),
-            mass=body.mass,
-            ipos=body.position,
-            iquat=body.quaternion,
-            inertia=body.moments,
-            explicitinertial=True,
+            **mass_properties,
         )
         added.set_frame(frame)
         if not device_body.joint:

@@ -17,21 +17,6 @@ AXES = ("roll", "pitch")
 """Axes about which the wheels can turn the trunk, in the order of all (2,) arrays."""
 
 
-@dataclass(frozen=True)
-class SpinBound:
-    """Lower bound on the inertia of the device for one change of rate about one axis.
-
-    Attributes:
-        paper: inertia of the one-wheel model as the paper prints it [kg m^2].
-        required: the same with the sign corrected [kg m^2]; the one used for sizing.
-        spin_inertia: of each of the two wheels, from `required` [kg m^2].
-    """
-
-    paper: float
-    required: float
-    spin_inertia: float
-
-
 @dataclass(frozen=True, eq=False)
 class SpinDemand:
     """Demand of one part of the requirement on each wheel.
@@ -95,26 +80,6 @@ def authority(incidence: float) -> FloatArray:
     return np.array([np.sin(incidence), np.cos(incidence)])
 
 
-def spin_bound(
-    inertia: float, rate_change: float, wheel_speed_max: float, share: float
-) -> SpinBound:
-    """The bound as printed and as corrected, and the inertia per wheel, `I_f / (2 share)`.
-
-    Args:
-        inertia: of the robot about the axis [kg m^2].
-        rate_change: of the trunk about the axis [rad/s].
-        wheel_speed_max: relative to the trunk [rad/s].
-        share: `cos alpha` for pitch, `sin alpha` for roll (see `authority`).
-    """
-    required = corrected_bound(inertia, rate_change, wheel_speed_max)
-    per_wheel = required / (2.0 * share) if share >= OUT_OF_REACH else float("inf")
-    return SpinBound(
-        paper=elroy_beanie_bound(inertia, rate_change, wheel_speed_max),
-        required=required,
-        spin_inertia=float(per_wheel),
-    )
-
-
 def roll_momentum_per_rate(roll: ArrayLike, yaw_inertia: ArrayLike) -> FloatArray:
     """Momentum about roll per roll rate at the start of a flip, `I_xx (1 + I_xx / I_zz)`.
 
@@ -152,9 +117,9 @@ def bound_curve(rate_changes: ArrayLike, wheel_speeds: ArrayLike) -> FloatArray:
 def per_wheel(total: FloatArray, incidence: float) -> float:
     """Demand on each wheel along its own axis, for roll and pitch of both together.
 
-    `(|x| / sin a + |y| / cos a) / 2`, for momenta [N m s] as for torques [N m]: the achievable
-    set is a rhombus (docs/theory.md, What a maneuver asks for). An axis without demand costs
-    nothing, whatever the incidence; inf if one with demand is out of reach.
+    `(|x| / sin a + |y| / cos a) / 2`, for momenta [N m s], torques [N m] and inertias [kg m^2]: the
+    achievable set is a rhombus (docs/theory.md, What a maneuver asks for). An axis without demand
+    costs nothing, whatever the incidence; inf if one with demand is out of reach.
 
     Args:
         total: on roll and on pitch, shape (2,).

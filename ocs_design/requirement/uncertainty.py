@@ -5,13 +5,12 @@ Each quantity is sampled by the inverse of its distribution function, from one n
 defaults and their sources are data: `reality.toml`.
 """
 
-import math
 import re
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
-from math import inf, isfinite, pi, sqrt
+from math import inf, pi, sqrt
 from pathlib import Path
 from statistics import NormalDist
 from types import MappingProxyType
@@ -99,12 +98,14 @@ class Spread:
         dimension: what it measures.
         unit: for display.
         least, most: limits of what is possible (SI).
+        parts: components that are sampled independently, or `EACH_WHEEL`.
     """
 
     dimension: Dimension
     unit: str
-    least: float = -math.inf
-    most: float = math.inf
+    least: float = -inf
+    most: float = inf
+    parts: tuple[str, ...] = ("",)
 
     @property
     def takes(self) -> str:
@@ -153,8 +154,11 @@ _ANGLE_MAX = pi / 4
 _RELATIVE = Spread(Dimension.RATIO, "%", -_RELATIVE_MAX, _RELATIVE_MAX)
 _ANGLE = Spread(Dimension.ANGLE, "deg", -_ANGLE_MAX, _ANGLE_MAX)
 _RATE = Spread(Dimension.ANGULAR_SPEED, "deg/s")
-_ANGLE_SPREAD = Spread(Dimension.ANGLE, "deg", 0.0, _ANGLE_MAX)
-_RATE_SPREAD = Spread(Dimension.ANGULAR_SPEED, "deg/s", 0.0)
+
+EACH_WHEEL = ("wheel",)
+"""Parts of a quantity that is sampled once for each wheel."""
+
+_SPACE, _TILT = ("x", "y", "z"), ("roll", "pitch")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -175,27 +179,27 @@ class UncertaintySection:
         why="If you weighed the robot: the error of the scales.",
     )
     inertia_error: Distribution | None = keyed(
-        _RELATIVE,
+        replace(_RELATIVE, parts=_SPACE),
         "relative error of the trunk's second moments of mass along x, y and z",
         why="Typically 5 % from CAD, 1 % from a pendulum test.",
     )
     com_error: Distribution | None = keyed(
-        Spread(Dimension.LENGTH, "mm"),
+        Spread(Dimension.LENGTH, "mm", parts=_SPACE),
         "error of the trunk's centre of mass along x, y and z",
         why="Batteries and cables are seldom where CAD has them.",
     )
     incidence_error: Distribution | None = keyed(
-        _ANGLE,
+        replace(_ANGLE, parts=EACH_WHEEL),
         "error of each wheel's incidence angle",
         why="Play and tolerance of the mounts.",
     )
     torque_constant_error: Distribution | None = keyed(
-        _RELATIVE,
+        replace(_RELATIVE, parts=EACH_WHEEL),
         "relative error of each motor's torque constant",
         why="Makers specify 5 to 10 % at most.",
     )
     resistance_error: Distribution | None = keyed(
-        _RELATIVE,
+        replace(_RELATIVE, parts=EACH_WHEEL),
         "relative error of each motor's resistance",
         why="It rises by 0.4 % for each degree of the winding.",
     )
@@ -205,14 +209,14 @@ class UncertaintySection:
         why="From a full battery to one that needs charging.",
     )
     coulomb_friction: Distribution | None = keyed(
-        Spread(Dimension.TORQUE, "mN m", 0.0),
+        Spread(Dimension.TORQUE, "mN m", 0.0, parts=EACH_WHEEL),
         "friction torque of each wheel at any speed",
         why="Measure it: run the wheel down.",
         default="half of the motor's no-load torque",
         example='"5 mN m"',
     )
     viscous_friction: Distribution | None = keyed(
-        Spread(Dimension.DAMPING, "uN m s/rad", 0.0),
+        Spread(Dimension.DAMPING, "uN m s/rad", 0.0, parts=EACH_WHEEL),
         "friction torque of each wheel over its speed",
         why="Measure it in the same run, at speed.",
         default="the other half of the no-load torque, at no-load speed",
@@ -229,22 +233,22 @@ class UncertaintySection:
         why="Bus, filters and the motor's own controller.",
     )
     attitude_noise: Distribution | None = keyed(
-        _ANGLE_SPREAD,
+        Spread(Dimension.ANGLE, "deg", 0.0, _ANGLE_MAX),
         "standard deviation of each measurement of attitude",
         why="See the data sheet of your inertial sensor.",
     )
     attitude_bias: Distribution | None = keyed(
-        _ANGLE,
+        replace(_ANGLE, parts=_TILT),
         "constant error of measured roll and pitch",
         why="The main cause of landings off level.",
     )
     gyro_noise: Distribution | None = keyed(
-        _RATE_SPREAD,
+        Spread(Dimension.ANGULAR_SPEED, "deg/s", 0.0),
         "standard deviation of each measured rate",
         why="Noise density times the square root of the bandwidth.",
     )
     gyro_bias: Distribution | None = keyed(
-        _RATE,
+        replace(_RATE, parts=_SPACE),
         "constant error of the measured rates about x, y and z",
         why="The residual after calibration.",
     )
@@ -254,33 +258,10 @@ class UncertaintySection:
         why="Of your feet on your floor.",
     )
     takeoff_rate: Distribution | None = keyed(
-        _RATE,
+        replace(_RATE, parts=_TILT),
         "rates about roll and pitch after a push-off, beyond the planned ones",
         why="Film jumps without the device to measure it; 0: legs as planned.",
     )
-
-
-_SPACE, _TILT = ("x", "y", "z"), ("roll", "pitch")
-
-_PARTS: Mapping[str, tuple[str, ...]] = MappingProxyType(
-    {
-        "inertia_error": _SPACE,
-        "com_error": _SPACE,
-        "attitude_bias": _TILT,
-        "gyro_bias": _SPACE,
-        "takeoff_rate": _TILT,
-    }
-)
-
-_OF_EACH_WHEEL = frozenset(
-    {
-        "incidence_error",
-        "torque_constant_error",
-        "resistance_error",
-        "coulomb_friction",
-        "viscous_friction",
-    }
-)
 
 
 def parts_of(key: str, wheels: Sequence[str]) -> tuple[str, ...]:
@@ -289,7 +270,8 @@ def parts_of(key: str, wheels: Sequence[str]) -> tuple[str, ...]:
     Args:
         key: of `[reality]`. wheels: names of the device's modules.
     """
-    return tuple(wheels) if key in _OF_EACH_WHEEL else _PARTS.get(key, ("",))
+    parts = spreads()[key].parts
+    return tuple(wheels) if parts == EACH_WHEEL else parts
 
 
 DEFAULTS = Path(__file__).with_name("reality.toml")
@@ -404,7 +386,7 @@ def default_uncertainty(
         "pendulum rate": sqrt(STANDARD_GRAVITY / standing_height) if standing_height else 0.0,
     }
     if motor is not None:
-        speed = motor.no_load_speed if isfinite(motor.no_load_speed) else inf
+        speed = motor.no_load_speed
         if motor.rated_voltage and motor.bus_voltage:
             speed *= motor.rated_voltage / motor.bus_voltage
         torque = no_load_torque(motor)

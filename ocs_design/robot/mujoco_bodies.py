@@ -7,10 +7,10 @@ MuJoCo's own URDF reader loses the root link's mass and refuses links without in
 joins them; the tree has them joined already.
 """
 
-from collections.abc import Set
-from dataclasses import dataclass
+from collections.abc import Mapping, Set
 from itertools import accumulate, product
 from pathlib import Path
+from typing import Any
 
 import mujoco
 import numpy as np
@@ -56,27 +56,11 @@ NEGLIGIBLE_INERTIA = 1e-12
 """Smallest principal moment in MuJoCo [kg m^2]; its limit is 1e-15."""
 
 
-@dataclass(frozen=True, eq=False)
-class Inertial:
-    """Mass properties in the form of MuJoCo's `<inertial>`.
+def inertial(raw: MassProperties) -> tuple[Mapping[str, Any], str | None]:
+    """Mass properties as arguments of `add_body`, and what had to be changed for MuJoCo, if any.
 
-    Attributes:
-        mass: [kg].
-        position: centre of mass in the body's frame [m], shape (3,).
-        quaternion: of the principal axes in the body's frame (w, x, y, z), shape (4,).
-        moments: principal moments of inertia [kg m^2], shape (3,).
-        warning: what was changed, to be followed by the body's name; None if nothing was.
+    They are changed as little as necessary; the warning is to be followed by the body's name.
     """
-
-    mass: float
-    position: FloatArray
-    quaternion: FloatArray
-    moments: FloatArray
-    warning: str | None
-
-
-def inertial(raw: MassProperties) -> Inertial:
-    """Mass properties in MuJoCo's form, changed as little as necessary for it to accept them."""
     moments, axes = np.linalg.eigh(raw.inertia)
     if np.linalg.det(axes) < 0.0:
         axes = axes * [-1.0, 1.0, 1.0]
@@ -87,8 +71,13 @@ def inertial(raw: MassProperties) -> Inertial:
         warning = f"simulated with the nearest possible principal moments ({figures} kg m^2)"
     elif raw.mass < NEGLIGIBLE_MASS:
         warning = f"moving links without mass, simulated with {NEGLIGIBLE_MASS:g} kg"
-    mass = max(raw.mass, NEGLIGIBLE_MASS)
-    return Inertial(mass, raw.com, quaternion(axes), accepted, warning)
+    return {
+        "mass": max(raw.mass, NEGLIGIBLE_MASS),
+        "ipos": raw.com,
+        "iquat": quaternion(axes),
+        "inertia": accepted,
+        "explicitinertial": True,
+    }, warning
 
 
 def nearest_physical_moments(moments: FloatArray, floor: float) -> FloatArray:
@@ -273,18 +262,14 @@ def spec_from_tree(tree: Tree, warnings: Warnings, *, visuals: bool) -> mujoco.M
 
 
 def _add_body(parent: mujoco.MjsBody, name: str, body: Body, warnings: Warnings) -> mujoco.MjsBody:
-    mass = inertial(body.mass_properties)
-    if mass.warning is not None:
-        warnings.add(mass.warning, body.name)
+    mass_properties, warning = inertial(body.mass_properties)
+    if warning is not None:
+        warnings.add(warning, body.name)
     spec = parent.add_body(
         name=name,
         pos=body.placement.position,
         quat=quaternion(body.placement.rotation),
-        mass=mass.mass,
-        ipos=mass.position,
-        iquat=mass.quaternion,
-        inertia=mass.moments,
-        explicitinertial=True,
+        **mass_properties,
     )
     joint = body.joint
     if joint is None:

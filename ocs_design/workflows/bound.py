@@ -5,7 +5,13 @@ import numpy as np
 from ocs_design.common.errors import UsageError
 from ocs_design.common.units import Dimension
 from ocs_design.device.answers import BoundAnswer
-from ocs_design.requirement.bound import AXES, authority, bound_curve, spin_bound
+from ocs_design.requirement.bound import (
+    AXES,
+    bound_curve,
+    corrected_bound,
+    elroy_beanie_bound,
+    per_wheel,
+)
 from ocs_design.requirement.values import INCIDENCE, TRUNK_RATE, WHEEL_RATE, Quantity
 
 CURVE_FACTORS = (0.25, 0.5, 1.0, 2.0, 4.0)
@@ -26,8 +32,10 @@ def bound_by_hand(
     rate = TRUNK_RATE.read(rate_change, "--rate-change")
     speed = WHEEL_RATE.read(wheel_speed_max, "--wheel-speed-max")
     incidence = INCIDENCE.read(alpha, "--alpha")
-    spin = spin_bound(moment, rate, speed, float(authority(incidence)[AXES.index(axis)]))
-    if not np.isfinite(spin.spin_inertia):
+    required = corrected_bound(moment, rate, speed)
+    about = np.array([required if name == axis else 0.0 for name in AXES])
+    spin_inertia = per_wheel(about, incidence)
+    if not np.isfinite(spin_inertia):
         raise UsageError(
             f"no wheel can do this about {axis}: at alpha {alpha} and {wheel_speed_max} "
             "it would be infinitely large",
@@ -42,9 +50,9 @@ def bound_by_hand(
         rate_change=rate,
         wheel_speed_max=speed,
         incidence=incidence,
-        paper=spin.paper,
-        required=spin.required,
-        spin_inertia=spin.spin_inertia,
+        paper=elroy_beanie_bound(moment, rate, speed),
+        required=required,
+        spin_inertia=spin_inertia,
         rate_changes=rates,
         wheel_speeds=speeds,
         curve=tuple(tuple(map(float, row)) for row in bound_curve(rates, speeds)),
