@@ -10,11 +10,7 @@ from ocs_design.catalogue.materials import material
 from ocs_design.common.errors import OcsError, SpecificationError
 from ocs_design.common.units import format_quantity
 from ocs_design.requirement.choices import highest_known_voltage, unknown_names
-from ocs_design.requirement.device_sections import (
-    LIMIT_OF_KEY,
-    Envelope,
-    FlywheelSection,
-)
+from ocs_design.requirement.device_sections import LIMIT_OF_KEY, Envelope, FlywheelSection
 from ocs_design.requirement.requirement import Requirement
 from ocs_design.requirement.sections import TURNS, WORDS
 from ocs_design.requirement.specification import Specification

@@ -121,9 +121,7 @@ class FlywheelSection:
         why="Room for the motor's shaft or can inside the rim.",
     )
     h_max: float | None = keyed(
-        values.LENGTH,
-        "largest height of a rim",
-        why="Room along the spin axis.",
+        values.LENGTH, "largest height of a rim", why="Room along the spin axis."
     )
     h_min: float | None = keyed(
         values.LENGTH,
@@ -136,9 +134,7 @@ class FlywheelSection:
         why="The thinnest wall that your lathe or printer makes well.",
     )
     wheel_mass_max: float | None = keyed(
-        values.MASS,
-        "largest mass of a rim",
-        why="What the trunk can carry on each side.",
+        values.MASS, "largest mass of a rim", why="What the trunk can carry on each side."
     )
     material: str | None = keyed(
         values.Text((vocabulary.STEEL, vocabulary.AUTO)),

@@ -15,12 +15,7 @@ import numpy as np
 from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.units import STANDARD_GRAVITY, Dimension, format_quantity
-from ocs_design.requirement.boundary import (
-    Boundary,
-    End,
-    Freedom,
-    Push,
-)
+from ocs_design.requirement.boundary import Boundary, End, Freedom, Push
 from ocs_design.requirement.values import (
     GRAVITY,
     INCIDENCE,

@@ -12,19 +12,9 @@ from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import SpecificationError
 from ocs_design.common.units import Dimension
-from ocs_design.requirement.boundary import (
-    UPRIGHT,
-    Boundary,
-    Push,
-    Y,
-)
+from ocs_design.requirement.boundary import UPRIGHT, Boundary, Push, Y
 from ocs_design.requirement.maneuver import Impulse, Maneuver, Point, Slew, Time, row_text
-from ocs_design.requirement.values import (
-    Quantities,
-    Quantity,
-    Sign,
-    Vector3,
-)
+from ocs_design.requirement.values import Quantities, Quantity, Sign, Vector3
 from ocs_design.robot.mass import MassProperties
 
 Torque: TypeAlias = Annotated[

@@ -273,9 +273,7 @@ class ValidationSection:
         why="Higher: faster, with more torque.",
     )
     kd: float | None = keyed(
-        values.positive_number,
-        "gain on the rate error",
-        why="2 sqrt(kp) damps critically.",
+        values.positive_number, "gain on the rate error", why="2 sqrt(kp) damps critically."
     )
     ballistic: bool | None = keyed(
         values.true_or_false,

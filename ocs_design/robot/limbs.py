@@ -325,10 +325,7 @@ class Anatomy:
         legs = arms = 0
         for limb in chosen:
             words = " ".join(
-                [
-                    *limb.chain.names,
-                    *(name for body in limb.chain.bodies for name in body.links),
-                ]
+                [*limb.chain.names, *(name for body in limb.chain.bodies for name in body.links)]
             )
             score = len(_LEG_WORDS.findall(words)) - len(_ARM_WORDS.findall(words))
             legs, arms = legs + (score > 0), arms + (score < 0)

@@ -43,9 +43,7 @@ class MassProperties:
     def moved(self, rotation: FloatArray, position: FloatArray) -> "MassProperties":
         """Mass properties in a frame in which the present one is at `rotation`, `position`."""
         return MassProperties(
-            self.mass,
-            rotation @ self.com + position,
-            rotation @ self.inertia @ rotation.T,
+            self.mass, rotation @ self.com + position, rotation @ self.inertia @ rotation.T
         )
 
     def inertia_about(self, point: FloatArray) -> FloatArray:

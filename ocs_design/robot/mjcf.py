@@ -23,14 +23,7 @@ from ocs_design.robot.links import Connection, Link, Warnings, check_number_of_l
 from ocs_design.robot.mass import MassProperties
 from ocs_design.robot.mjcf_spec import mujoco_refusal, mujoco_warnings_to, parse_mjcf
 from ocs_design.robot.mujoco_bodies import GEOM_TYPES, JOINT_TYPES
-from ocs_design.robot.tree import (
-    LARGEST_NUMBER,
-    Joint,
-    Shape,
-    ShapeKind,
-    Tree,
-    joint_motion,
-)
+from ocs_design.robot.tree import LARGEST_NUMBER, Joint, Shape, ShapeKind, Tree, joint_motion
 
 
 def find_base(model: mujoco.MjModel, named: Sequence[str], warnings: Warnings) -> int:

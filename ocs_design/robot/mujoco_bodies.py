@@ -231,9 +231,7 @@ def spec_from_tree(tree: Tree, warnings: Warnings, *, visuals: bool) -> mujoco.M
         collision_group = HIDDEN_GROUP if visual_count and shown_count == visual_count else 0
         for shape in drawn:
             geom = specs[-1].add_geom(
-                type=GEOM_TYPES[shape.kind],
-                pos=shape.position,
-                quat=quaternion(shape.rotation),
+                type=GEOM_TYPES[shape.kind], pos=shape.position, quat=quaternion(shape.rotation)
             )
             if shape.color is not None:
                 geom.rgba = shape.color

@@ -40,11 +40,7 @@ class Posture:
 
 
 def resolve_posture(
-    tree: Tree,
-    trunk: str,
-    legs: Sequence[Leg],
-    name: str | None,
-    joints: Mapping[str, float],
+    tree: Tree, trunk: str, legs: Sequence[Leg], name: str | None, joints: Mapping[str, float]
 ) -> Posture:
     """The posture that the user requests.
 

@@ -15,11 +15,7 @@ from ocs_design.robot.leg_geometry import BASE_FRAME, named_front
 from ocs_design.robot.reader import read_robot
 
 RIGHT = np.pi / 2.0
-ROTATIONS = {
-    "y up": f"{-RIGHT} 0 0",
-    "x sideways": f"0 0 {-RIGHT}",
-    "x up": f"0 {RIGHT} 0",
-}
+ROTATIONS = {"y up": f"{-RIGHT} 0 0", "x sideways": f"0 0 {-RIGHT}", "x up": f"0 {RIGHT} 0"}
 """Roll, pitch and yaw of the original root link in a root link with other axes."""
 
 
