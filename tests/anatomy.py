@@ -105,6 +105,4 @@ def legs_of(name: str) -> tuple[Leg, ...]:
 @cache
 def stand_of(name: str) -> Stand:
     """Stance of a robot of `ANATOMY`, computed once per process."""
-    stance = stand(tree_of(name), ANATOMY[name][0], legs_of(name))
-    assert stance is not None
-    return stance
+    return stand(tree_of(name), ANATOMY[name][0], legs_of(name))

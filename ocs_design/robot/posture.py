@@ -56,12 +56,12 @@ def resolve_posture(
     warnings: tuple[str, ...] = ()
     chosen: Mapping[str, float] = {}
     if name == STAND:
-        standing = stand(tree, trunk, legs)
-        if standing is None:
+        if not legs:
             raise RobotError(
                 "no legs were found, so there is no posture 'stand'",
                 hint="use --posture zero, a posture named in the file, or --joint NAME=VALUE",
             )
+        standing = stand(tree, trunk, legs)
         chosen, warnings = standing.posture, standing.warnings
     elif name != ZERO:
         if name not in tree.named_postures:
@@ -103,7 +103,7 @@ def unknown_name(kind: str, name: str, known: Iterable[str]) -> RobotError:
     return RobotError(f"the robot has no {kind} '{name}'", hint=likely + available)
 
 
-_SHARES = (0.6, 0.7, 0.8, 0.9)
+_SHARES = (0.6, 0.7, SHARE_OF_LEG, 0.9)
 _ABDUCTIONS = (0.25, 0.5, 0.75, 1.0)
 
 
@@ -116,14 +116,13 @@ def posture_sensitivity(robot: Robot) -> Mapping[str, MassProperties]:
     """
     tree, legs = robot.tree, robot.legs
     postures = [(f"nominal ({robot.posture_name})", robot.posture), (ZERO, {})]
-    for share in _SHARES if legs else ():
-        standing = stand(tree, robot.trunk, legs, share)
-        if standing is not None and standing.share == share and not standing.warnings:
+    stands = {share: stand(tree, robot.trunk, legs, share) for share in _SHARES if legs}
+    for share, standing in stands.items():
+        if standing.share == share and not standing.warnings:
             postures.append((f"{STAND} at {share:.0%} of the leg", standing.posture))
-    standing = stand(tree, robot.trunk, legs, SHARE_OF_LEG)
-    outwards = {} if standing is None else _outward_joints(robot)
-    usual, joints = {} if standing is None else standing.posture, tree.joints
+    outwards, joints = _outward_joints(robot) if legs else {}, tree.joints
     for angle in _ABDUCTIONS if outwards else ():
+        usual = stands[SHARE_OF_LEG].posture
         turned = {name: usual[name] + sign * angle for name, sign in outwards.items()}
         if all(joints[name].lower <= value <= joints[name].upper for name, value in turned.items()):
             postures.append((f"legs spread by {angle:g} rad", {**usual, **turned}))

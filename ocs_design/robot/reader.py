@@ -217,28 +217,23 @@ def read_robot(
         if name not in tree.body_of_link:
             raise unknown_name("link", name, tree.body_of_link)
     recognition = recognise(tree, trunk=trunk, legs=legs)
-    found_legs = recognition.reading.legs
+    base, found_legs, mount = recognition.reading.trunk, recognition.reading.legs, None
     if trunk is None:
-        name = recognition.reading.trunk
-        tree, mount, frame_warnings = with_base_frame(tree, name, found_legs)
-        base = name if mount is None else BASE_FRAME
-    else:
-        base, mount, frame_warnings = trunk, None, ()
+        tree, mount, frame_warnings = with_base_frame(tree, base, found_legs)
     if mount is None:
         frame_warnings = tuple(convention_warnings(tree, base, found_legs))
+    else:
+        base = BASE_FRAME
     resolved = resolve_posture(tree, base, found_legs, posture, joints or {})
     properties = tree.locked_mass_properties(resolved.values, base)
     check_total_mass(properties, tree)
-    implausible = plausibility_warnings(tree, base, found_legs, resolved.values, properties)
-    simplifications = recognition.reading.simplifications
-    assumed = _assumed_heights(tree, base, found_legs, resolved.standing_height)
     warnings = (
         *tree.warnings,
-        *simplifications,
+        *recognition.reading.simplifications,
         *frame_warnings,
         *resolved.warnings,
-        *assumed,
-        *implausible,
+        *_assumed_heights(tree, base, found_legs, resolved.standing_height),
+        *plausibility_warnings(tree, base, found_legs, resolved.values, properties),
     )
     return Robot(
         name=tree.name,

@@ -220,20 +220,15 @@ class Stand:
     warnings: tuple[str, ...]
 
 
-def stand(tree: Tree, trunk: str, legs: Sequence[Leg], share: float = SHARE_OF_LEG) -> Stand | None:
+def stand(tree: Tree, trunk: str, legs: Sequence[Leg], share: float = SHARE_OF_LEG) -> Stand:
     """Posture with the trunk level and every foot on one ground plane below its hip.
 
-    The ground is at a depth at which no leg is stretched beyond `share` of its length; if joint
-    limits forbid that, the legs are straighter. Legs with ankles (five joints or more) keep their
-    soles as level as they are at zero. If the limits allow, the knees of a biped point forward
-    (B's x) and those of a robot with more legs inwards, as on Solo12. Other joints are at zero, or
-    at the limit nearest to it.
-
-    Returns:
-        None for a robot without legs.
+    The robot has legs. The ground is at a depth at which none is stretched beyond `share` of its
+    length; if joint limits forbid that, the legs are straighter. Legs with ankles (five joints or
+    more) keep their soles as level as they are at zero. If the limits allow, the knees of a biped
+    point forward (B's x) and those of a robot with more legs inwards, as on Solo12. Other joints
+    are at zero, or at the limit nearest to it.
     """
-    if not legs:
-        return None
     geometries = leg_geometries(tree, trunk, legs)
     stances = tuple(problem.solve() for problem in _problems(geometries, share))
     warnings = [

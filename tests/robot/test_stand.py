@@ -138,10 +138,6 @@ def test_the_share_sets_the_height():
     assert np.diff(heights) == pytest.approx([0.032] * 3, abs=1e-5)
 
 
-def test_a_robot_without_legs_does_not_stand():
-    assert stand(tree_of("ur_description/urdf/ur5_robot"), "world", ()) is None
-
-
 def test_an_unreachable_stance_raises_a_warning():
     """For a stance lower than the knees can bend the nearest one is taken."""
     tree = tree_of("romeo_description/urdf/romeo")
