@@ -38,31 +38,20 @@ def attach_device(spec: mujoco.MjSpec, robot: Robot, device: Device) -> None:
     for device_body in device_bodies:
         mass_properties, _ = inertial(device_body.mass_properties)
         place = base @ device_body.place
+        frames = {"pos": place.position, "quat": quaternion(place.rotation)}
         # Attaching prepends the prefix to the names.
-        added = attached.worldbody.add_body(
-            name=device_body.name.removeprefix(bodies.PREFIX),
-            pos=place.position,
-            quat=quaternion(place.rotation),
-            **mass_properties,
-        )
+        name = device_body.name.removeprefix(bodies.PREFIX)
+        added = attached.worldbody.add_body(name=name, **frames, **mass_properties)
         added.set_frame(frame)
         if not device_body.joint:
             continue
-        joint = device_body.joint.removeprefix(bodies.PREFIX)
-        added.add_joint(
-            name=joint,
-            type=mujoco.mjtJoint.mjJNT_HINGE,
-            axis=(0.0, 0.0, 1.0),
-            armature=device.motor.armature,
-        )
-        added.add_geom(
-            name=added.name,
-            type=mujoco.mjtGeom.mjGEOM_CYLINDER,
-            size=(device.flywheel.outer_radius, device.flywheel.height / 2.0, 0.0),
-            contype=0,
-            conaffinity=bodies.WHEEL_CONTACT_BIT,
-            rgba=bodies.STEEL,
-        )
+        joint, kind = device_body.joint.removeprefix(bodies.PREFIX), mujoco.mjtJoint.mjJNT_HINGE
+        turning = {"axis": (0.0, 0.0, 1.0), "armature": device.motor.armature}
+        added.add_joint(name=joint, type=kind, **turning)
+        size = device.flywheel.outer_radius, device.flywheel.height / 2.0, 0.0
+        meets = {"contype": 0, "conaffinity": bodies.WHEEL_CONTACT_BIT}
+        cylinder = mujoco.mjtGeom.mjGEOM_CYLINDER
+        added.add_geom(name=name, type=cylinder, size=size, rgba=bodies.STEEL, **meets)
         actuator = attached.add_actuator(name=joint, target=joint, trntype=_TO_JOINT)
         actuator.set_to_motor()
         if limit is not None:

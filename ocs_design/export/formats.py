@@ -63,13 +63,9 @@ class Documented:
         # With a robot of unknown geometry, open points do not refuse the device, but must be shown.
         known = design.buildable.yes is not None
         points = () if known else (f"{point.what}; {point.cure}" for point in design.buildable.open)
-        return replace(
-            self,
-            device=replace(self.device, supply=design.supply),
-            margins=design.margins,
-            fitting=(*points, *design.ocs.fitting),
-            refused=refusal(design.buildable),
-        )
+        device, fitting = replace(self.device, supply=design.supply), (*points, *design.ocs.fitting)
+        documents = replace(self, device=device, margins=design.margins, fitting=fitting)
+        return replace(documents, refused=refusal(design.buildable))
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,8 +111,8 @@ class Format:
     Attributes:
         name: name that users type.
         content: description of its files for users.
-        folder: subfolder of the output folder.
         module: module that writes it, below `ocs_design.export`.
+        folder: subfolder of the output folder.
         needs_robot: whether it needs the robot's own file.
         on_request: whether it is written only if it is named.
         needs_margins: whether it reports margins of the flights, and so is written after them.
@@ -126,8 +122,8 @@ class Format:
 
     name: str
     content: str
-    folder: str
     module: str
+    folder: str = "cad"
     needs_robot: bool = False
     on_request: bool = False
     needs_margins: bool = False
@@ -157,34 +153,21 @@ class Format:
         )
 
 
+_DRAWN = "wheel, plate and guard ring, drilling template"
+_OUTLINED = "wheel and plate, drilling template"
+
 FORMATS = (
-    Format("stl", "wheel and other metal parts, as meshes", "cad", "stl"),
-    Format(
-        "bom", "parts list with stock and masses", "cad", "bill_of_materials", needs_margins=True
-    ),
-    Format(
-        "drawing",
-        "technical drawings of wheel, plate and guard ring, drilling template",
-        "cad",
-        "drawing.wheel_sheet",
-    ),
-    Format("3mf", "wheel for slicers", "cad", "threemf", on_request=True),
-    Format("step", "exact parts", "cad", "step", on_request=True, library="OCP"),
-    Format(
-        "dxf",
-        "outlines of wheel and plate, drilling template",
-        "cad",
-        "dxf",
-        on_request=True,
-        library="ezdxf",
-    ),
-    Format("printed", "housing, foot and cage for printing", "cad", "printed"),
-    Format(
-        "assembly", "how to build it, step by step", "cad", "assembly.booklet", needs_margins=True
-    ),
-    Format("urdf", "whole robot", "robot", "urdf", needs_robot=True),
-    Format("mjcf", "whole robot", "robot", "mjcf", needs_robot=True),
-    Format("glb", "whole robot, for viewing", "robot", "glb", needs_robot=True),
+    Format("stl", "wheel and other metal parts, as meshes", "stl"),
+    Format("bom", "parts list with stock and masses", "bill_of_materials", needs_margins=True),
+    Format("drawing", f"technical drawings of {_DRAWN}", "drawing.wheel_sheet"),
+    Format("3mf", "wheel for slicers", "threemf", on_request=True),
+    Format("step", "exact parts", "step", on_request=True, library="OCP"),
+    Format("dxf", f"outlines of {_OUTLINED}", "dxf", on_request=True, library="ezdxf"),
+    Format("printed", "housing, foot and cage for printing", "printed"),
+    Format("assembly", "how to build it, step by step", "assembly.booklet", needs_margins=True),
+    Format("urdf", "whole robot", "urdf", "robot", needs_robot=True),
+    Format("mjcf", "whole robot", "mjcf", "robot", needs_robot=True),
+    Format("glb", "whole robot, for viewing", "glb", "robot", needs_robot=True),
     Format("snippets", "device alone as URDF, xacro, MJCF and SDF", "snippets", "snippets"),
     Format("ros2", "ROS 2 description package", "ros2", "ros2", needs_robot=True, on_request=True),
     Format("pictures", "views as PNG", "pictures", "pictures", needs_robot=True, on_request=True),

@@ -76,11 +76,8 @@ class _Scene:
                 part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4
                 for part in color[:3]
             )
-            look = {
-                "baseColorFactor": [red, green, blue, color[3]],
-                "metallicFactor": 0.0,
-                "roughnessFactor": 0.7,
-            }
+            look: dict[str, object] = {"baseColorFactor": [red, green, blue, color[3]]}
+            look |= {"metallicFactor": 0.0, "roughnessFactor": 0.7}
             # Double-sided, because robot meshes are often inside out.
             material: dict[str, object] = {"pbrMetallicRoughness": look, "doubleSided": True}
             if color[3] < 1.0:

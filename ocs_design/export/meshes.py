@@ -80,15 +80,14 @@ def part_manifold(part: Part, sections: int = SECTIONS) -> "Manifold":
     # Only needed for parts of several solids.
     from manifold3d import Manifold, Mesh64, OpType  # noqa: PLC0415
 
-    joined, cut = (
-        [
-            Manifold(Mesh64(mesh.vertices, mesh.triangles.astype(np.uint64)))
-            for mesh in (solid_mesh(solid, sections) for solid in solids)
-        ]
-        for solids in (part.joined, part.cut)
-    )
-    union = Manifold.batch_boolean(joined, OpType.Add)
-    return Manifold.batch_boolean([union, *cut], OpType.Subtract)
+    def manifold(solid: Solid) -> "Manifold":
+        """One solid."""
+        mesh = solid_mesh(solid, sections)
+        return Manifold(Mesh64(mesh.vertices, mesh.triangles.astype(np.uint64)))
+
+    union = Manifold.batch_boolean([manifold(solid) for solid in part.joined], OpType.Add)
+    holes = (manifold(solid) for solid in part.cut)
+    return Manifold.batch_boolean([union, *holes], OpType.Subtract)
 
 
 def solid_mesh(solid: Solid, sections: int = SECTIONS) -> Mesh:

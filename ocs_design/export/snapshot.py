@@ -23,11 +23,8 @@ _OVERSAMPLING = 2
 _AZIMUTH, _ELEVATION = np.radians(-37.0), np.radians(22.0)
 """Direction of the camera, seen from the robot [rad]: in front, to its right, above."""
 
-_TOWARDS = (
-    np.cos(_ELEVATION) * np.cos(_AZIMUTH),
-    np.cos(_ELEVATION) * np.sin(_AZIMUTH),
-    np.sin(_ELEVATION),
-)
+_LEVEL = np.cos(_ELEVATION)
+_TOWARDS = (_LEVEL * np.cos(_AZIMUTH), _LEVEL * np.sin(_AZIMUTH), np.sin(_ELEVATION))
 """Unit vector in B towards the viewer."""
 
 _ROOM = 1.06

@@ -43,13 +43,10 @@ def write(subject: Subject, folder: Path) -> Notes:
 
 def snippets(device: Device, base: Base) -> Mapping[str, str]:
     """All snippets by file name."""
-    return {
-        "ocs.urdf": snippet_urdf(device, base),
-        "ocs.urdf.xacro": snippet_xacro(device, base),
-        "ocs_ros2_control.urdf": snippet_ros2_control(device),
-        "ocs.xml": snippet_mjcf(device, base),
-        "ocs.sdf": snippet_sdf(device, base),
-    }
+    forms = {"urdf": snippet_urdf, "urdf.xacro": snippet_xacro}
+    forms |= {"xml": snippet_mjcf, "sdf": snippet_sdf}
+    texts = {f"ocs.{ending}": write_form(device, base) for ending, write_form in forms.items()}
+    return {**texts, "ocs_ros2_control.urdf": snippet_ros2_control(device)}
 
 
 def snippet_urdf(device: Device, base: Base) -> str:
@@ -64,18 +61,12 @@ def snippet_xacro(device: Device, base: Base) -> str:
     control = ros2_control_urdf(device, joints, name="${prefix}ocs", plugin="${hardware_plugin}")
     rotation = np.eye(3) if base.mount is None else base.mount.placement.rotation
     # The supports of the feet are on the macro's own base.
-    under = [
-        fill(
-            "carrier.urdf",
-            {
-                **body_values(body, "${prefix}ocs_base"),
-                "link": f"${{prefix}}{body.name}",
-                "visuals": visuals_urdf(plain_visuals(device, None)),
-            },
-        )
-        for body in bodies.device_bodies(device)
-        if body.module is None
-    ]
+    under = ""
+    for body in bodies.device_bodies(device):
+        if body.module is None:
+            looks = visuals_urdf(plain_visuals(device, None))
+            support = body_values(body, "${prefix}ocs_base") | {"visuals": looks}
+            under += fill("carrier.urdf", {**support, "link": f"${{prefix}}{body.name}"})
     cylinder = cylinder_urdf(device.flywheel.outer_radius, device.flywheel.height)
     wheel = {
         **inertial_values(bodies.flywheel_inertial(device)),
@@ -92,7 +83,7 @@ def snippet_xacro(device: Device, base: Base) -> str:
         **_macro_wheels(device),
         "flywheel": indent(fill("flywheel.urdf", wheel), "  "),
         "carrier": indent(_macro_carrier(device), "  "),
-        "plate": indent("".join(under), "  "),
+        "plate": indent(under, "  "),
         "plugin": MOCK_PLUGIN,
         "ros2_control": indent(control, "    "),
     }
@@ -212,17 +203,11 @@ def _body_mjcf(device: Device, body: bodies.DeviceBody) -> str:
         values["size"] = numbers((wheel.outer_radius, wheel.height / 2.0))
         values["contact_bit"] = str(bodies.WHEEL_CONTACT_BIT)
         return fill("flywheel.xml", values)
-    geoms = (
-        {
-            "type": visual.kind.value,
-            "position": numbers(visual.place.position),
-            "quaternion": numbers(quaternion(visual.place.rotation)),
-            "size": numbers(visual.size),
-            "color": numbers(visual.color),
-        }
-        for visual in plain_visuals(device, body.module)
-    )
-    values["geoms"] = "".join(fill("visual.xml", geom) for geom in geoms)
+    values["geoms"] = ""
+    for visual in plain_visuals(device, body.module):
+        turn = numbers(quaternion(visual.place.rotation))
+        shape = {"type": visual.kind.value, "size": numbers(visual.size), "quaternion": turn}
+        values["geoms"] += fill("visual.xml", {**visual_values(visual), **shape})
     return fill("carrier.xml", values)
 
 

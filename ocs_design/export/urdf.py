@@ -5,6 +5,7 @@ tree that was read.
 """
 
 from collections.abc import Iterable, Iterator, Mapping
+from itertools import product
 from pathlib import Path, PurePath
 from xml.etree import ElementTree as ET
 from xml.parsers import expat
@@ -132,15 +133,8 @@ def trunk_link(base: Base) -> str:
 
 def mount_urdf(mount: Mount) -> str:
     """Base frame as a link fixed to the robot's own link, if no link has x forward and z up."""
-    return fill(
-        "base_frame.urdf",
-        {
-            "link": BASE_FRAME,
-            "parent": quoted(mount.link),
-            "position": numbers(mount.placement.position),
-            "rpy": numbers(rpy_from_rotation(mount.placement.rotation)),
-        },
-    )
+    names = {"link": BASE_FRAME, "parent": quoted(mount.link)}
+    return fill("base_frame.urdf", {**names, **place_values(mount.placement)})
 
 
 def device_urdf(device: Device, parent: str, *, mesh: str | None = None) -> str:
@@ -194,22 +188,20 @@ def visuals_urdf(visuals: Iterable[Visual]) -> str:
 
 def visual_values(visual: Visual) -> dict[str, str]:
     """Name, place and colour of a visual shape, for templates."""
-    place = visual.place
-    return {
-        "name": visual.name,
-        "position": numbers(place.position),
-        "rpy": numbers(rpy_from_rotation(place.rotation)),
-        "color": numbers(visual.color),
-    }
+    color = numbers(visual.color)
+    return {"name": visual.name, "color": color, **place_values(visual.place)}
+
+
+def place_values(place: Placement) -> dict[str, str]:
+    """Position and angles of a frame, for templates."""
+    rpy = numbers(rpy_from_rotation(place.rotation))
+    return {"position": numbers(place.position), "rpy": rpy}
 
 
 def inertial_values(body: MassProperties) -> dict[str, str]:
     """Mass properties of a body, for templates."""
-    moments = {
-        f"i{one}{other}": numbers(body.inertia[i, j])
-        for i, one in enumerate("xyz")
-        for j, other in enumerate("xyz")
-    }
+    entries = zip(product("xyz", repeat=2), body.inertia.ravel(), strict=True)
+    moments = {f"i{one}{other}": numbers(entry) for (one, other), entry in entries}
     return {"mass": numbers(body.mass), "com": numbers(body.com), **moments}
 
 
@@ -365,6 +357,5 @@ def _connection(name: str, kind: str, parent: str, child: str, place: Placement)
 
 
 def _origin(place: Placement) -> ET.Element:
-    return ET.Element(
-        "origin", xyz=numbers(place.position), rpy=numbers(rpy_from_rotation(place.rotation))
-    )
+    values = place_values(place)
+    return ET.Element("origin", xyz=values["position"], rpy=values["rpy"])

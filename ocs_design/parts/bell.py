@@ -69,14 +69,9 @@ def bell_of(motor: AnyMotor) -> Bell | None:
     straight = BELL_SHARE * length - before
     if straight <= 0.0:
         return None
-    return Bell(
-        bore=diameter / 2.0 + GLUE_GAP,
-        straight=straight,
-        room=length + before - 2.0 * CLEARANCE,
-        front=(length - before) / 2.0,
-        shaft=(mounting.shaft_diameter or 0.0) / 2.0,
-        shaft_length=mounting.shaft_length or 0.0,
-    )
+    bore, room = diameter / 2.0 + GLUE_GAP, length + before - 2.0 * CLEARANCE
+    shaft = (mounting.shaft_diameter or 0.0) / 2.0, mounting.shaft_length or 0.0
+    return Bell(bore, straight, room, (length - before) / 2.0, *shaft)
 
 
 def fixture_part(bell: Bell, outer_radius: float, height: float) -> Part[float]:
@@ -92,16 +87,7 @@ def fixture_part(bell: Bell, outer_radius: float, height: float) -> Part[float]:
     step = floor + bell.front - height / 2.0
     inside, top = outer_radius + FIXTURE_FIT, step + height / 2.0
     hole = bell.shaft + FIXTURE_FIT if bell.shaft > 0.0 else 0.0
-    profile = [
-        (hole, 0.0),
-        (inside + WALL, 0.0),
-        (inside + WALL, top),
-        (inside, top),
-        (inside, step),
-        (around + GLUE_ROOM, step),
-        (around + GLUE_ROOM, step - GLUE_ROOM),
-        (around, step - GLUE_ROOM),
-        (around, floor),
-        (hole, floor),
-    ]
-    return Part("ring_fixture", PETG.density, (revolved(profile),))
+    groove, bottom, outside = around + GLUE_ROOM, step - GLUE_ROOM, inside + WALL
+    wall = (hole, 0.0), (outside, 0.0), (outside, top), (inside, top), (inside, step)
+    seat = (groove, step), (groove, bottom), (around, bottom), (around, floor), (hole, floor)
+    return Part("ring_fixture", PETG.density, (revolved((*wall, *seat)),))

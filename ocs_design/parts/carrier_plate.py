@@ -73,15 +73,8 @@ MAST_YIELD = 115e6 / 1.25
 1999-1-1, table 3.2b, and table 8.1."""
 
 TUBES = (
-    (0.025, 2.0e-3),
-    (0.03, 2.0e-3),
-    (0.04, 2.0e-3),
-    (0.04, 3.0e-3),
-    (0.05, 3.0e-3),
-    (0.05, 4.0e-3),
-    (0.06, 4.0e-3),
-    (0.08, 4.0e-3),
-    (0.1, 5.0e-3),
+    *((0.025, 2.0e-3), (0.03, 2.0e-3), (0.04, 2.0e-3), (0.04, 3.0e-3), (0.05, 3.0e-3)),
+    *((0.05, 4.0e-3), (0.06, 4.0e-3), (0.08, 4.0e-3), (0.1, 5.0e-3)),
 )
 """Sides and walls of square tube commonly in stock [m]; tolerances: EN 755-8."""
 
@@ -351,17 +344,10 @@ class CarrierPlate:
     def fastenings(self) -> tuple[Fastening, ...]:
         """The trunk's screws, grouped by length; each group has its longest sleeve."""
         longest = dict(sorted(zip(self.screw_lengths, self.gaps, strict=True)))
-        return tuple(
-            Fastening(
-                self.screw,
-                self.screw_lengths.count(length),
-                self.clamped + sleeve,
-                BoltedJoint.PLATE if self.mast is None else BoltedJoint.MAST,
-                self.thread_depth,
-                several_lengths=len(longest) > 1,
-            )
-            for length, sleeve in longest.items()
-        )
+        joint = BoltedJoint.PLATE if self.mast is None else BoltedJoint.MAST
+        held, several = (joint, self.thread_depth), len(longest) > 1
+        groups = ((self.screw_lengths.count(at), self.clamped + gap) for at, gap in longest.items())
+        return tuple(Fastening(self.screw, *of, *held, several_lengths=several) for of in groups)
 
     def net_width(self, across: FloatArray) -> FloatArray:
         """Width of one plate's sections at some y, minus screw holes and windows [m]."""
@@ -395,15 +381,12 @@ class CarrierPlate:
 
     def own_mass_properties(self) -> MassProperties:
         """Mass properties of plate, sleeves and the trunk's screws in its own frame."""
-        bodies = [
-            part.mass_properties().moved(place.rotation, place.position)
-            for part, place in plate_bodies(self)
-        ]
+        placed = ((part.mass_properties(), at) for part, at in plate_bodies(self))
+        bodies = [body.moved(at.rotation, at.position) for body, at in placed]
         # Screws as points.
         for place, length in zip(self.screw_places, self.screw_lengths, strict=True):
-            up = np.array([0.0, 0.0, self.clamped - self.screw.centre(length)])
-            mass = self.screw.mass(length)
-            bodies.append(MassProperties(mass, place.point(up), np.zeros((3, 3))))
+            at, mass = self.clamped - self.screw.centre(length), self.screw.mass(length)
+            bodies.append(MassProperties(mass, place.point([0.0, 0.0, at]), np.zeros((3, 3))))
         return combine(bodies)
 
 
@@ -441,19 +424,14 @@ def plate_part(plate: CarrierPlate) -> Part[float]:
         (() if plate.mast else plate.trunk, plate.screw.clearance_hole),
     )
     solids, holes = [], []
+    middles = (plate.across * directions(plate.arms)).tolist() if plate.window > 0.0 else []
     for index, (shape, low) in enumerate(zip(plate.shapes, plate.heights, strict=True)):
         high = low + plate.thickness
         solids.append(Prism(shape, low, high))
-        holes += [
-            Prism(Disc(diameter / 2.0, place), low, high)
-            for places, diameter in kinds
-            for place in plate.own(places, index)
-        ]
-        if plate.window > 0.0:
-            holes += [
-                Prism(Disc(plate.window, (shape.x + float(x), float(y))), low, high)
-                for x, y in plate.across * directions(plate.arms)
-            ]
+        for places, width in kinds:
+            holes += [Prism(Disc(width / 2.0, at), low, high) for at in plate.own(places, index)]
+        windows = (Disc(plate.window, (shape.x + x, y)) for x, y in middles)
+        holes += [Prism(window, low, high) for window in windows]
     return Part("plate", plate.density, tuple(solids), tuple(holes))
 
 
@@ -480,11 +458,9 @@ def mast_part(plate: CarrierPlate, mast: Mast) -> Part[float]:
         front = Placement(BACKWARDS, np.array([face, 0.0, 0.0]))
         solids.append(Prism(block, -flat, 0.0, front))
     drilled = Disc(plate.screw.clearance_hole / 2.0)
-    holes += [
-        Prism(drilled, low, high, Placement(BACKWARDS, np.array([face, y, z])))
-        for y, z in plate.trunk
-        for low, high in walls
-    ]
+    for y, z in plate.trunk:
+        through = Placement(BACKWARDS, np.array([face, y, z]))
+        holes += [Prism(drilled, low, high, through) for low, high in walls]
     return Part("mast", plate.density, tuple(solids), tuple(holes))
 
 

@@ -391,12 +391,8 @@ def shrink_fit(
     if holes is not None:
         inside += [state.peak_at_hole(0, holes) for state in states]
     stiffness = web.elastic_modulus * web.thickness**3 / (12.0 * (1.0 - web.poisson_ratio**2))
-    return ShrinkFit(
-        least=least,
-        most=most,
-        torque=per_pressure * (loosest + per_interference * (least - SMOOTHING / 2.0)),
-        stress_web=max(inside),
-        stress_rim=max(state.peak(joint + 1) for state in states),
-        squeezed=max(state.pressure(joint) for state in states),
-        buckling=_BUCKLING * stiffness / (radius**2 * web.thickness) if radius > 0.0 else inf,
-    )
+    buckling = _BUCKLING * stiffness / (radius**2 * web.thickness) if radius > 0.0 else inf
+    carried = per_pressure * (loosest + per_interference * (least - SMOOTHING / 2.0))
+    in_rim = max(state.peak(joint + 1) for state in states)
+    squeezed = max(state.pressure(joint) for state in states)
+    return ShrinkFit(least, most, carried, max(inside), in_rim, squeezed, buckling)

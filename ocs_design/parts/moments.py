@@ -60,18 +60,16 @@ class MassMoments(Table, Generic[Real]):
         """Moments of the body moved along all three axes [m]."""
         dx, dy, dz = (product(distance, self.mass) for distance in (x, y, z))
         new_x, new_y, new_z = self.x + dx, self.y + dy, self.z + dz
-        return MassMoments(
-            mass=self.mass,
-            y=new_y,
-            z=new_z,
-            xx=self.xx + product(x, self.x + new_x),
-            yy=self.yy + product(y, self.y + new_y),
-            zz=self.zz + product(z, self.z + new_z),
-            yz=self.yz + product(z, self.y) + product(y, new_z),
-            x=new_x,
-            xy=self.xy + product(y, self.x) + product(x, new_y),
-            xz=self.xz + product(z, self.x) + product(x, new_z),
-        )
+        xx, yy = self.xx + product(x, self.x + new_x), self.yy + product(y, self.y + new_y)
+        zz, yz = self.zz + product(z, self.z + new_z), self.yz + product(z, self.y)
+        xy, xz = self.xy + product(y, self.x), self.xz + product(z, self.x)
+        yz, xy, xz = yz + product(y, new_z), xy + product(x, new_y), xz + product(x, new_z)
+        return MassMoments(self.mass, new_y, new_z, xx, yy, zz, yz, new_x, xy, xz)
+
+    @property
+    def second(self) -> tuple[tuple[Real | float, ...], ...]:
+        """Second moments as the rows of a symmetric matrix [kg m^2]."""
+        return (self.xx, self.xy, self.xz), (self.xy, self.yy, self.yz), (self.xz, self.yz, self.zz)
 
     def shifted(self, along: Real | float, up: Real | float) -> "MassMoments[Real]":
         """Moments of the body moved along the wheel's axis y and upwards [m]."""
@@ -80,12 +78,7 @@ class MassMoments(Table, Generic[Real]):
     def turned(self, rotation: FloatArray) -> "MassMoments[Real]":
         """Moments in the axes of another frame, into which `rotation` transforms coordinates."""
         rows = [[(k, entry) for k, entry in enumerate(row) if entry] for row in rotation.tolist()]
-        first = (self.x, self.y, self.z)
-        second = (
-            (self.xx, self.xy, self.xz),
-            (self.xy, self.yy, self.yz),
-            (self.xz, self.yz, self.zz),
-        )
+        first, second = (self.x, self.y, self.z), self.second
 
         x, y, z = (sum(entry * first[k] for k, entry in row) for row in rows)
 

@@ -37,6 +37,11 @@ class Region(Protocol[Real]):
         """The edge of a shape whose sizes are numbers."""
 
 
+def placed(moments: MassMoments[Real], place: Placement) -> MassMoments[Real]:
+    """Moments in the frame in which their own has this placement."""
+    return moments.turned(place.rotation).moved(*place.position.tolist())
+
+
 @dataclass(frozen=True, eq=False)
 class Revolution:
     """A body of revolution about the z axis.
@@ -116,23 +121,12 @@ class Prism(Generic[Real]):
         """Moments in the part's frame, of unit density, exact."""
         plane = self.shape.moments.around(self.count, self.first)
         length, middle = self.high - self.low, (self.high + self.low) / 2.0
-        volume = plane.mass * length
-        own = MassMoments(
-            mass=volume,
-            y=product(plane.y, length),
-            z=volume * middle,
-            xx=plane.xx * length,
-            yy=plane.yy * length,
-            zz=volume * (middle**2 + length**2 / 12.0),
-            yz=product(plane.y, length * middle),
-            x=product(plane.x, length),
-            xy=product(plane.xy, length),
-            xz=product(plane.x, length * middle),
-        )
-        if self.placement is ORIGIN:
-            return own
-        turned = own.turned(self.placement.rotation)
-        return turned.moved(*self.placement.position.tolist())
+        volume, lever = plane.mass * length, length * middle
+        y, x, xy = (product(own, length) for own in (plane.y, plane.x, plane.xy))
+        xx, yy, zz = plane.xx * length, plane.yy * length, volume * (middle**2 + length**2 / 12.0)
+        yz, xz = product(plane.y, lever), product(plane.x, lever)
+        own = MassMoments(volume, y, volume * middle, xx, yy, zz, yz, x, xy, xz)
+        return own if self.placement is ORIGIN else placed(own, self.placement)
 
 
 @dataclass(frozen=True, eq=False)
@@ -206,8 +200,7 @@ class Relief:
         upright = first, first * y, second, first * x**2, first * y**2, third, second * y
         integrands = *upright, first * x, first * x * y, second * x
         own = MassMoments(*(float(integrand.sum()) for integrand in integrands))
-        turned = own.turned(self.placement.rotation)
-        return turned.moved(*self.placement.position.tolist())
+        return placed(own, self.placement)
 
     def _points(self) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Quadrature points on the face minus its holes [m], and their weights as areas [m^2]."""
@@ -292,13 +285,7 @@ class Part(Generic[Real]):
         """Mass properties of one part in its own frame, in closed form."""
         found: MassMoments[Any] = self.moments()
         com = np.array([found.x, found.y, found.z]) / found.mass
-        about = np.array(
-            [
-                [found.xx, found.xy, found.xz],
-                [found.xy, found.yy, found.yz],
-                [found.xz, found.yz, found.zz],
-            ]
-        ) - found.mass * np.outer(com, com)
+        about = np.array(found.second) - found.mass * np.outer(com, com)
         return MassProperties(float(found.mass), com, np.trace(about) * np.eye(3) - about)
 
 
@@ -340,15 +327,8 @@ class Carrier:
         mass = moments.mass
         along, up = (moments.y / mass, moments.z / mass) if mass else (0.0, 0.0)
         xx, yy, zz = moments.xx, moments.yy - mass * along**2, moments.zz - mass * up**2
-        return cls(
-            mass=float(mass),
-            axial_inertia=float(xx + zz),
-            transverse_inertia=float(yy + zz),
-            vertical_inertia=float(xx + yy),
-            product_of_inertia=float(mass * along * up - moments.yz),
-            along=float(along),
-            up=float(up),
-        )
+        inertias = xx + zz, yy + zz, xx + yy, mass * along * up - moments.yz
+        return cls(*map(float, (mass, *inertias, along, up)))
 
     @property
     def inertia(self) -> FloatArray:

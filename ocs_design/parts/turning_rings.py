@@ -190,20 +190,13 @@ def holed_peaks(
     inside = replace(web, outer=circle - hole)
     around = replace(web, inner=circle + hole)
     turning = TurningRings.of((hub, inside, *bands, around, rim), speed)
-    pulled = float(turning.stresses(2 + _BANDS // 2, circle)[0])
-    hoops = [
-        float(turning.stresses(row, np.linspace(ring.inner, ring.outer, _POINTS))[1].mean())
-        * (ring.outer - ring.inner)
-        for row, ring in enumerate(turning.rings[1:-1], start=1)
-    ]
-    stretched = sum(hoops) / (web.outer - web.inner)
+    pulled, stretched = float(turning.stresses(2 + _BANDS // 2, circle)[0]), 0.0
+    for row, ring in enumerate(turning.rings[1:-1], start=1):
+        hoop = turning.stresses(row, np.linspace(ring.inner, ring.outer, _POINTS))[1]
+        stretched += float(hoop.mean()) * (ring.outer - ring.inner)
+    stretched /= web.outer - web.inner
     between, beside = ligament_efficiencies(web, count, circle, hole)
-    return (
-        turning.peak(0),
-        max(
-            (2.0 + between**3) / between * pulled,
-            (2.0 + beside**3) / beside * stretched,
-            *(turning.peak(ring) for ring in (1, len(bands) + 2)),
-        ),
-        max(turning.peak(len(bands) + 3), TurningRings.of((rim,), speed).peak(0)),
-    )
+    at_holes = (2.0 + between**3) / between * pulled, (2.0 + beside**3) / beside * stretched
+    plain = turning.peak(1), turning.peak(len(bands) + 2)
+    around_web = max(turning.peak(len(bands) + 3), TurningRings.of((rim,), speed).peak(0))
+    return turning.peak(0), max(*at_holes, *plain), around_web

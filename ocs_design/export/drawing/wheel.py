@@ -6,7 +6,7 @@ Tolerances of sizes are those of ISO 286-1, table 1; balance is that of rigid ro
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import isinf, pi
+from math import inf, isinf, pi
 
 from ocs_design.parts.joints import Grade, tolerance_width
 from ocs_design.parts.rim import NO_CUTS, HoleRing, RimCuts
@@ -100,13 +100,7 @@ def inside_corners(wheel: Wheel) -> tuple[float, float]:
     return (radius if rings else 0.0), added / float(total(wheel_parts(wheel)).inertia[2, 2])
 
 
-GENERAL_TOLERANCES = (
-    (6e-3, 0.1e-3),
-    (30e-3, 0.2e-3),
-    (120e-3, 0.3e-3),
-    (400e-3, 0.5e-3),
-    (1.0, 0.8e-3),
-)
+GENERAL_TOLERANCES = {6e-3: 0.1e-3, 30e-3: 0.2e-3, 120e-3: 0.3e-3, 400e-3: 0.5e-3, inf: 0.8e-3}
 """Upper limits of size and their permissible deviations, class m of ISO 2768-1 [m]; sizes above 1 m
 have the last one."""
 
@@ -116,10 +110,7 @@ WEB_GRADE = Grade.IT12
 
 def general_tolerance(size: float) -> float:
     """Permissible deviation of a size without tolerance, ISO 2768-m [m]."""
-    return next(
-        (deviation for largest, deviation in GENERAL_TOLERANCES if size <= largest),
-        GENERAL_TOLERANCES[-1][1],
-    )
+    return next(error for largest, error in GENERAL_TOLERANCES.items() if size <= largest)
 
 
 def inertia_error(wheel: Wheel) -> float:
