@@ -11,16 +11,7 @@ from importlib.resources import files as resources
 from pathlib import Path
 from reprlib import repr as shortened
 from types import MappingProxyType, UnionType
-from typing import (
-    Any,
-    NamedTuple,
-    Protocol,
-    TypeVar,
-    Union,
-    get_args,
-    get_origin,
-    get_type_hints,
-)
+from typing import Any, NamedTuple, Protocol, TypeVar, Union, get_args, get_origin, get_type_hints
 
 from ocs_design.common.errors import SpecificationError, closest
 from ocs_design.common.files import TextKind

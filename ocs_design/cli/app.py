@@ -118,16 +118,14 @@ def _no_command(
 def size(
     context: typer.Context,
     open_report: Annotated[
-        bool,
-        opt.flag("--open", "Open the report in the browser, if there is a screen."),
+        bool, opt.flag("--open", "Open the report in the browser, if there is a screen.")
     ] = False,
     seed: opt.Seed = None,
     out: Annotated[
         Path | None, opt.option("-o --out", "DIR", "Output folder. Default: <name>-ocs.")
     ] = None,
     verbose: Annotated[
-        bool,
-        opt.flag("-v --verbose", "Print all figures instead of the one-screen summary."),
+        bool, opt.flag("-v --verbose", "Print all figures instead of the one-screen summary.")
     ] = False,
     *,
     output: Output,

@@ -315,8 +315,7 @@ def validate(
         ),
     ] = "mujoco",
     sample: Annotated[
-        int | None,
-        opt.option("--sample", "K", "Fly only sample K of --seed."),
+        int | None, opt.option("--sample", "K", "Fly only sample K of --seed.")
     ] = None,
     replay: Annotated[
         Path | None,
@@ -334,8 +333,7 @@ def validate(
         bool, opt.flag("--desaturate", "Brake the wheels while the robot stands.")
     ] = False,
     view: Annotated[
-        bool,
-        opt.flag("--view", "Show the flights in MuJoCo's viewer; closing it shows the next."),
+        bool, opt.flag("--view", "Show the flights in MuJoCo's viewer; closing it shows the next.")
     ] = False,
     out: Annotated[
         Path | None,

@@ -109,8 +109,7 @@ Survives: TypeAlias = Annotated[
     ),
 ]
 Detection: TypeAlias = Annotated[
-    Text,
-    option("--detection", "TIME", "Time until a failed drive is detected; 20ms by default."),
+    Text, option("--detection", "TIME", "Time until a failed drive is detected; 20ms by default.")
 ]
 GearsFile: TypeAlias = Annotated[
     Text,
@@ -134,8 +133,7 @@ Reality: TypeAlias = Annotated[
     ),
 ]
 Certify: TypeAlias = Annotated[
-    bool,
-    flag("--certify", "Fly sampled robots until it is certain whether enough of them pass."),
+    bool, flag("--certify", "Fly sampled robots until it is certain whether enough of them pass.")
 ]
 Seed: TypeAlias = Annotated[int | None, option("--seed", "N", "Seed of all random numbers.")]
 Force: TypeAlias = Annotated[

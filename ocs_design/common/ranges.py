@@ -9,15 +9,7 @@ from dataclasses import fields
 from functools import cache
 from math import inf
 from types import UnionType
-from typing import (
-    Annotated,
-    NamedTuple,
-    TypeAlias,
-    Union,
-    get_args,
-    get_origin,
-    get_type_hints,
-)
+from typing import Annotated, NamedTuple, TypeAlias, Union, get_args, get_origin, get_type_hints
 
 LARGEST = 1e12
 """Largest figure, SI: stresses reach 1e9."""

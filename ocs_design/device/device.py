@@ -7,14 +7,7 @@ import numpy as np
 from ocs_design.actuation.drive import Drive
 from ocs_design.actuation.supply import Supply
 from ocs_design.common.arrays import FloatArray
-from ocs_design.common.ranges import (
-    Distance,
-    Length,
-    LengthIfAny,
-    NotNegative,
-    Positive,
-    Signed,
-)
+from ocs_design.common.ranges import Distance, Length, LengthIfAny, NotNegative, Positive, Signed
 from ocs_design.common.units import format_quantity
 from ocs_design.device.layout import PAIR, Layout, outward_sign, standing_frames
 from ocs_design.parts.carrier_plate import CarrierPlate

@@ -131,18 +131,18 @@ def verdict_table(design: OcsDesign) -> CellTable:
     """Verdicts on each maneuver with the device and without, with their decisive angles."""
     maneuvers = {record.name: record.maneuver() for record in design.requirement.maneuvers}
     without_device = {run.scenario: run for run in design.validation if not run.ocs}
-    rows = (
-        (
-            run.scenario,
-            *(
-                "-" if flight is None else short_verdict(flight, maneuvers.get(run.scenario))
-                for flight in (run, without_device.get(run.scenario))
-            ),
-        )
-        for run in design.validation
-        if run.ocs
+
+    def verdict(run: ValidationRecord | None) -> Cell:
+        return "-" if run is None else short_verdict(run, maneuvers.get(run.scenario))
+
+    return CellTable.of(
+        (run for run in design.validation if run.ocs),
+        {
+            "<flight": lambda run: run.scenario,
+            "<with the device": verdict,
+            "<without it": lambda run: verdict(without_device.get(run.scenario)),
+        },
     )
-    return CellTable(columns("<flight", "<with the device", "<without it"), tuple(rows))
 
 
 def run_sentence(run: ValidationRecord, *, with_note: bool = True) -> str:

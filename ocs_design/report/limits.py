@@ -1,6 +1,7 @@
 """Facts about demand and capacity: demands, margins, and the limits that set the mass."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from ocs_design.common.units import ceiled, floored, significant
 from ocs_design.common.wording import (
@@ -96,43 +97,43 @@ NOTE_ON_DRIVE = (
 
 def demand_table(design: OcsDesign) -> CellTable:
     """Momentum, spin inertia and torque that each maneuver needs."""
-    rows: list[tuple[Cell, ...]] = [
-        (
-            demand.source,
-            degrees_number(demand.incidence),
-            f"{1e3 * demand.roll_momentum:.1f}",
-            f"{1e3 * demand.pitch_momentum:.1f}",
-            inertia_number(demand.spin_inertia),
-            f"{demand.torque:.3f}" if demand.torque else "-",
-        )
-        for demand in design.requirement.demands
-    ]
+    table = CellTable.of(
+        design.requirement.demands,
+        {
+            "<required by": lambda demand: demand.source,
+            "alpha [deg]": lambda demand: degrees_number(demand.incidence),
+            "roll [mN m s]": lambda demand: f"{1e3 * demand.roll_momentum:.1f}",
+            "pitch [mN m s]": lambda demand: f"{1e3 * demand.pitch_momentum:.1f}",
+            "spin inertia [kg mm2]": lambda demand: inertia_number(demand.spin_inertia),
+            "least torque [N m]": lambda demand: f"{demand.torque:.3f}" if demand.torque else "-",
+        },
+    )
     specified = design.requirement.spin_inertia_by_hand
-    if specified is not None:
-        rows.append(("specified", "", "", "", inertia_number(specified), "-"))
-    heads = columns(
-        "<required by", "alpha [deg]", "roll [mN m s]", "pitch [mN m s]", "spin inertia [kg mm2]",
-        "least torque [N m]",
-    )  # fmt: skip
-    return CellTable(heads, tuple(rows))
+    if specified is None:
+        return table
+    by_hand = ("specified", "", "", "", inertia_number(specified), "-")
+    return replace(table, rows=(*table.rows, by_hand))
 
 
 def margin_table(margins: tuple[Margin, ...]) -> CellTable:
     """Demand, capacity and factor of each margin, and the maneuver that sets it."""
-    return CellTable(
-        columns("<quantity", "demand", "capacity", "factor", "<set by"),
-        tuple(
-            (
-                margin.name,
-                quantity(margin.demand, margin.unit),
-                "-" if margin.capacity is None else quantity(margin.capacity, margin.unit),
-                factor if factor == "-" or float(factor) >= 1.0 else Toned(factor, Tone.OPEN),
-                margin.scenario,
-            )
-            for margin in margins
-            # A margin that is shown as 1.00 is met.
-            for factor in ("-" if margin.margin is None else floored(margin.margin, 2),)
-        ),
+
+    def factor(margin: Margin) -> Cell:
+        """Capacity over demand; a margin that is shown as 1.00 is met."""
+        text = "-" if margin.margin is None else floored(margin.margin, 2)
+        return text if text == "-" or float(text) >= 1.0 else Toned(text, Tone.OPEN)
+
+    return CellTable.of(
+        margins,
+        {
+            "<quantity": lambda margin: margin.name,
+            "demand": lambda margin: quantity(margin.demand, margin.unit),
+            "capacity": lambda margin: (
+                "-" if margin.capacity is None else quantity(margin.capacity, margin.unit)
+            ),
+            "factor": factor,
+            "<set by": lambda margin: margin.scenario,
+        },
     )
 
 
@@ -203,18 +204,16 @@ def saving_changes(design: OcsDesign) -> Rows:
 
 def alternatives_table(design: OcsDesign) -> CellTable:
     """Result of each single change of the specification, except those that save nothing."""
-    return CellTable(
-        columns("<change", "mass", "<motor", "<note"),
-        tuple(
-            (
-                alternative.change,
-                "no device" if alternative.mass_total is None else grams(alternative.mass_total),
-                alternative.motor,
-                alternative.note,
-            )
-            for alternative in design.alternatives
-            if alternative.note != SAVES_NOTHING
-        ),
+    return CellTable.of(
+        (other for other in design.alternatives if other.note != SAVES_NOTHING),
+        {
+            "<change": lambda other: other.change,
+            "mass": lambda other: (
+                "no device" if other.mass_total is None else grams(other.mass_total)
+            ),
+            "<motor": lambda other: other.motor,
+            "<note": lambda other: other.note,
+        },
     )
 
 
@@ -317,13 +316,13 @@ def saving_notes(design: OcsDesign) -> str:
 
 def reserve_table(reserve: ReserveRecord) -> CellTable:
     """Share of each uncertain quantity in the reserve, and the mass that knowing it would save."""
-    return CellTable(
-        columns("<key of [reality]", "share of the reserve", "saved if known exactly"),
-        tuple(
-            (cost.key, f"{100.0 * cost.share:.0f} %", grams(max(cost.mass, 0.0)))
-            for cost in reserve.costs
-            if cost.share >= _LEAST_SHARE
-        ),
+    return CellTable.of(
+        (cost for cost in reserve.costs if cost.share >= _LEAST_SHARE),
+        {
+            "<key of [reality]": lambda cost: cost.key,
+            "share of the reserve": lambda cost: f"{100.0 * cost.share:.0f} %",
+            "saved if known exactly": lambda cost: grams(max(cost.mass, 0.0)),
+        },
     )
 
 

@@ -8,7 +8,7 @@ from ocs_design.common.units import rpm_number
 from ocs_design.common.wording import counted, degrees_number, grams, inertia_number, listed
 from ocs_design.device.records.requirement import ManeuverRecord
 from ocs_design.device.records.selection import RankedRecord, SelectionRecord
-from ocs_design.report.table import CellTable, Rows, columns
+from ocs_design.report.table import CellTable, Rows
 
 DRIVES_SHOWN = 5
 """Drives that the terminal shows; with -v it shows the whole ranking."""
@@ -24,24 +24,21 @@ def choice_title(selection: SelectionRecord) -> str:
 
 def task_table(selection: SelectionRecord) -> CellTable:
     """Demands of each maneuver on the chosen drive."""
-    heads = columns(
-        "<required by", "alpha [deg]", "spin inertia [kg mm2]", "needed [s]", "given [s]",
-        "peak [rpm]",
-    )  # fmt: skip
-    return CellTable(
-        heads,
-        tuple(
-            (
-                task.source,
-                degrees_number(task.incidence),
-                inertia_number(task.spin_inertia),
-                "-" if task.time_needed is None else f"{task.time_needed:.3f}",
-                "-" if task.time_given is None else f"{task.time_given:.3f}",
-                rpm_number(task.peak_speed),
-            )
-            for task in selection.tasks
-        ),
+    return CellTable.of(
+        selection.tasks,
+        {
+            "<required by": lambda task: task.source,
+            "alpha [deg]": lambda task: degrees_number(task.incidence),
+            "spin inertia [kg mm2]": lambda task: inertia_number(task.spin_inertia),
+            "needed [s]": lambda task: _seconds(task.time_needed),
+            "given [s]": lambda task: _seconds(task.time_given),
+            "peak [rpm]": lambda task: rpm_number(task.peak_speed),
+        },
     )
+
+
+def _seconds(time: float | None) -> str:
+    return "-" if time is None else f"{time:.3f}"
 
 
 _INERTIA_RESOLUTION = 5e-4
@@ -74,19 +71,16 @@ def task_note(selection: SelectionRecord, maneuvers: Iterable[ManeuverRecord]) -
 
 def drive_table(drives: tuple[RankedRecord, ...]) -> CellTable:
     """Lightest drives, each with the mass of the whole device, its rim and incidence."""
-    return CellTable(
-        columns("<lightest drives", "device [g]", "<rim", "R [mm]", "h [mm]", "alpha [deg]"),
-        tuple(
-            (
-                drive_name(drive),
-                f"{1e3 * drive.mass:.1f}",
-                drive.material,
-                f"{1e3 * drive.outer_radius:.1f}",
-                f"{1e3 * drive.height:.1f}",
-                degrees_number(drive.incidence),
-            )
-            for drive in drives
-        ),
+    return CellTable.of(
+        drives,
+        {
+            "<lightest drives": drive_name,
+            "device [g]": lambda drive: f"{1e3 * drive.mass:.1f}",
+            "<rim": lambda drive: drive.material,
+            "R [mm]": lambda drive: f"{1e3 * drive.outer_radius:.1f}",
+            "h [mm]": lambda drive: f"{1e3 * drive.height:.1f}",
+            "alpha [deg]": lambda drive: degrees_number(drive.incidence),
+        },
     )
 
 

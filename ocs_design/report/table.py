@@ -4,9 +4,10 @@ Each renderer formats them in its own way.
 """
 
 import re
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import TypeAlias
+from typing import Self, TypeAlias, TypeVar
 
 
 class Tone(StrEnum):
@@ -27,6 +28,7 @@ class Toned:
 
 
 Cell: TypeAlias = str | Toned
+Entry = TypeVar("Entry")
 
 
 def cell_text(cell: Cell) -> str:
@@ -68,6 +70,12 @@ class CellTable:
 
     columns: tuple[Heading, ...]
     rows: tuple[tuple[Cell, ...], ...]
+
+    @classmethod
+    def of(cls, entries: Iterable[Entry], cells: Mapping[str, Callable[[Entry], Cell]]) -> Self:
+        """Table with a row for each entry, and for each heading a column made by its function."""
+        rows = (tuple(cell(entry) for cell in cells.values()) for entry in entries)
+        return cls(columns(*cells), tuple(rows))
 
     def first(self, columns: int) -> "CellTable":
         """Table of the first columns alone."""

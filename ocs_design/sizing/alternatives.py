@@ -52,7 +52,7 @@ def start_alternatives(
     """Start computing what each change would save, and which maneuver drives the mass.
 
     What the task's specification already states is not offered again. `call` starts a call and
-    returns the function that waits for its answer, like `Beside.call`; the result is such a
+    returns the function that waits for its answer, like `WorkerPool.call`; the result is such a
     function too. Both answers are empty without a motor.
     """
     if choice is None:

@@ -114,7 +114,5 @@ def write_specification(
     )
     write_whole(file, text, force=force)
     return Initialized(
-        file=str(file),
-        robot=None if start.robot is None else start.robot.name,
-        next=command,
+        file=str(file), robot=None if start.robot is None else start.robot.name, next=command
     )

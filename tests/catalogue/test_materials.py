@@ -3,12 +3,7 @@
 import pytest
 
 from ocs_design.catalogue.gears import gear, gears
-from ocs_design.catalogue.materials import (
-    DEFAULT_MATERIAL,
-    load_materials,
-    material,
-    materials,
-)
+from ocs_design.catalogue.materials import DEFAULT_MATERIAL, load_materials, material, materials
 from ocs_design.catalogue.motors import motor, motors
 from ocs_design.common.errors import SpecificationError
 

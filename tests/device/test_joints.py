@@ -11,13 +11,7 @@ from ocs_design.actuation.fasteners import screw
 from ocs_design.actuation.motor import BoltCircle, Face, Mounting, ShaftForm
 from ocs_design.catalogue.materials import material
 from ocs_design.device.device import Web
-from ocs_design.device.joints import (
-    balance_of,
-    joints_of,
-    rim_fit,
-    wheel_rings,
-    yield_margin,
-)
+from ocs_design.device.joints import balance_of, joints_of, rim_fit, wheel_rings, yield_margin
 from ocs_design.device.resonances import resonances_of
 from ocs_design.device.solids import foot_of, motor_mount
 from ocs_design.export.device_parts import printed_parts

@@ -93,13 +93,7 @@ AT_ALPHA, LIGHTEST = None, "lightest"
         (
             0.26,
             {FOUR: None, SIX: None},
-            [
-                (TWO, AT_ALPHA),
-                (FOUR, AT_ALPHA),
-                (FOUR, LIGHTEST),
-                (SIX, AT_ALPHA),
-                (SIX, LIGHTEST),
-            ],
+            [(TWO, AT_ALPHA), (FOUR, AT_ALPHA), (FOUR, LIGHTEST), (SIX, AT_ALPHA), (SIX, LIGHTEST)],
             "",
         ),
     ],

@@ -112,19 +112,18 @@ def print_examination(console: Console, examination: Examination) -> None:
 
 
 def _print_findings(console: Console, title: str, findings: Iterable[Finding]) -> None:
-    heads = columns(f"<{title}", "<state", "<found", "<wanted", "<for")
-    rows = tuple(
-        (
-            finding.name,
-            Toned(finding.state.value, _TONES[finding.state]),
-            finding.found,
-            finding.wanted,
-            finding.purpose,
-        )
-        for finding in findings
+    table = CellTable.of(
+        findings,
+        {
+            f"<{title}": lambda finding: finding.name,
+            "<state": lambda finding: Toned(finding.state.value, _TONES[finding.state]),
+            "<found": lambda finding: finding.found,
+            "<wanted": lambda finding: finding.wanted,
+            "<for": lambda finding: finding.purpose,
+        },
     )
     console.print()
-    show(console, CellTable(heads, rows))
+    show(console, table)
 
 
 def _print_cures(console: Console, title: str, findings: Iterable[Finding]) -> None:

@@ -11,7 +11,7 @@ from typing import Any
 from rich.console import Console
 
 from ocs_design.actuation.drive import speed_limit
-from ocs_design.actuation.motor import Gear, Motor, Mounting, build_gaps
+from ocs_design.actuation.motor import Motor, Mounting, build_gaps
 from ocs_design.catalogue.gears import GearSheet, gears, gears_to_json
 from ocs_design.catalogue.materials import Material, materials, materials_to_json
 from ocs_design.catalogue.motors import implausible_values, motors, motors_to_json
@@ -106,22 +106,21 @@ def motor_mounting(mounting: Mounting | None) -> str:
 def print_motors(console: Console, motors: Sequence[Motor]) -> None:
     """Print every motor with its key figures, the lightest first; then the missing data."""
     heading(console, "Motors")
-    heads = columns(
-        "<name", "mass [g]", "rated [V]", "max [rpm]", "peak  [N m ]", "k_t [mN m/A]", "<lacks"
+    table = CellTable.of(
+        sorted(motors, key=lambda motor: (motor.mass or math.inf, motor.name)),
+        {
+            "<name": lambda motor: motor.name,
+            "mass [g]": lambda motor: _figure(motor.mass, "g", ".0f"),
+            "rated [V]": lambda motor: _figure(motor.rated_voltage, "V", ".4g"),
+            "max [rpm]": lambda motor: _figure(speed_limit(motor), "rpm", ",.0f"),
+            "peak  [N m ]": lambda motor: (
+                _figure(motor.peak_torque, "N m", ".3g") + BASIS_MARK.get(motor.peak_basis, " ")
+            ),
+            "k_t [mN m/A]": lambda motor: _figure(motor.torque_constant, "mN m", ".3g"),
+            "<lacks": lambda motor: _first_gap(build_gaps(motor)),
+        },
     )
-    rows = tuple(
-        (
-            motor.name,
-            _figure(motor.mass, "g", ".0f"),
-            _figure(motor.rated_voltage, "V", ".4g"),
-            _figure(speed_limit(motor), "rpm", ",.0f"),
-            _figure(motor.peak_torque, "N m", ".3g") + BASIS_MARK.get(motor.peak_basis, " "),
-            _figure(motor.torque_constant, "mN m", ".3g"),
-            _first_gap(build_gaps(motor)),
-        )
-        for motor in sorted(motors, key=lambda motor: (motor.mass or math.inf, motor.name))
-    )
-    show(console, CellTable(heads, rows))
+    show(console, table)
     note(console, "+ k_t times the peak current   * stall torque, because no rating is given")
     heading(console, "Complete, by short-term torque")
     classes = []
@@ -165,15 +164,19 @@ def _names_of(names: Sequence[str]) -> str:
 def print_gears(console: Console, sheets: Sequence[GearSheet]) -> None:
     """Print every stage of the gears; then the gears without one, and the data they lack."""
     heading(console, "Gears")
-    figures = (
-        ("ratio", "ratio", "", ".3f"),
-        ("mass [g]", "mass", "g", ".0f"),
-        ("at wheel [g cm2]", "inertia", "g cm2", ".4g"),
-        ("peak [N m]", "torque_max", "N m", ".3g"),
-        ("motor [rpm]", "motor_speed_max", "rpm", ",.0f"),
-        ("wheel [rpm]", "wheel_speed_max", "rpm", ",.0f"),
+    table = CellTable.of(
+        [gear for sheet in sheets for gear in sheet.stages()],
+        {
+            "<name": lambda gear: gear.name,
+            "ratio": lambda gear: f"{gear.ratio:.3f}",
+            "mass [g]": lambda gear: _figure(gear.mass, "g", ".0f"),
+            "at wheel [g cm2]": lambda gear: _figure(gear.inertia, "g cm2", ".4g"),
+            "peak [N m]": lambda gear: _figure(gear.torque_max, "N m", ".3g"),
+            "motor [rpm]": lambda gear: _figure(gear.motor_speed_max, "rpm", ",.0f"),
+            "wheel [rpm]": lambda gear: _figure(gear.wheel_speed_max, "rpm", ",.0f"),
+        },
     )
-    show(console, _figure_table([gear for sheet in sheets for gear in sheet.stages()], figures))
+    show(console, table)
     note(console, "ratio: motor speed over wheel speed. Without a gear it is 1: direct.")
     lacking = [f"{sheet.name}: no {', '.join(sheet.missing)}" for sheet in sheets if sheet.missing]
     if lacking:
@@ -184,30 +187,17 @@ def print_gears(console: Console, sheets: Sequence[GearSheet]) -> None:
 def print_materials(console: Console, entries: Sequence[Material]) -> None:
     """Print every material with its figures."""
     heading(console, "Materials")
-    figures = (
-        ("density [kg/m3]", "density", "", ".0f"),
-        ("yield [MPa]", "yield_strength", "MPa", ".0f"),
-        ("ultimate [MPa]", "ultimate_strength", "MPa", ".0f"),
-        ("Poisson", "poisson_ratio", "", ".2f"),
+    table = CellTable.of(
+        entries,
+        {
+            "<name": lambda material: material.name,
+            "density [kg/m3]": lambda material: f"{material.density:.0f}",
+            "yield [MPa]": lambda material: _figure(material.yield_strength, "MPa", ".0f"),
+            "ultimate [MPa]": lambda material: _figure(material.ultimate_strength, "MPa", ".0f"),
+            "Poisson": lambda material: _figure(material.poisson_ratio, "", ".2f"),
+        },
     )
-    show(console, _figure_table(entries, figures))
-
-
-def _figure_table(
-    entries: Sequence[Gear | Material], figures: Sequence[tuple[str, str, str, str]]
-) -> CellTable:
-    """Table of names and figures; each figure is given as heading, attribute, unit and format."""
-    rows = (
-        (
-            row.name,
-            *(
-                _figure(getattr(row, name), unit, number_format)
-                for _, name, unit, number_format in figures
-            ),
-        )
-        for row in entries
-    )
-    return CellTable(columns("<name", *(head for head, *_ in figures)), tuple(rows))
+    show(console, table)
 
 
 def _figure(value: float | None, unit: str, number_format: str) -> str:
