@@ -51,6 +51,21 @@ class Slew:
     one_way: bool = False
 
 
+@dataclass(frozen=True, eq=False)
+class Built:
+    """Errors of n robots as built, as far as a slew depends on them beyond the inertia.
+
+    Attributes:
+        offset: of the centre of mass in B [m], shape (n, 3).
+        weight: relative to that of the design, shape (n,).
+        bias: error of measured roll and pitch [rad], shape (n, 2).
+    """
+
+    offset: FloatArray
+    weight: FloatArray
+    bias: FloatArray
+
+
 Time: TypeAlias = Annotated[float, TIME]
 Tilt: TypeAlias = Annotated[float, TILT]
 Spin: TypeAlias = Annotated[float, SPIN]
@@ -241,6 +256,16 @@ class Maneuver(ABC):
         Args:
             inertia: of the robot with its device, wheels braked; or of many of them.
         """
+
+    def as_built(self, slew: Slew, built: Built) -> Slew:
+        """Slew of robots that are built with errors, from that of the design."""
+        del built
+        return slew
+
+    @property
+    def growth(self) -> float:
+        """Factor by which a tilt that the wheels leave grows until the end; above 1 on a pivot."""
+        return 1.0
 
     def scaled(self, factor: float, *names: str) -> Self:
         """The maneuver with these fields, numbers or rows of them, multiplied by `factor`."""

@@ -16,6 +16,7 @@ from ocs_design.common.units import Dimension, format_quantity, rpm
 from ocs_design.common.wording import listed
 from ocs_design.requirement.boundary import Boundary, End, Freedom, Y
 from ocs_design.requirement.maneuver import (
+    Built,
     Impulse,
     Maneuver,
     Point,
@@ -345,6 +346,27 @@ class Pivoted(Maneuver):
             swept, np.zeros(shape), 2.0 * linear_swing.switch, self.wheel_speed, one_way=True
         )
 
+    def as_built(self, slew: Slew, built: Built) -> Slew:
+        """Torques are larger by weight and tilt.
+
+        A centre of mass off by d over the lever, and a level that is measured wrongly, are a tilt.
+        The law keeps to the attitudes of the design, so it stays until the end.
+        """
+        axis, inertia, stiffness, tilt, rate = self._pendulum
+        across = np.stack([-built.offset[:, 1], built.offset[:, 0]], axis=1)
+        tipped = (across / float(np.linalg.norm(self.lever)) - built.bias) @ axis[:2]
+        diverging = tilt + rate / sqrt(stiffness / inertia)
+        larger = built.weight * (1.0 + (tipped / diverging if diverging else 0.0))
+        swept, momentum = slew.swept * larger[:, None], slew.momentum * larger[:, None]
+        return replace(slew, swept=swept, momentum=momentum)
+
+    @property
+    def growth(self) -> float:
+        """exp(kappa T), the growth of a tilt that no torque opposes."""
+        _, inertia, stiffness, _, _ = self._pendulum
+        growth_rate = sqrt(stiffness / inertia)
+        return exp(min(growth_rate * self.duration, self.stretch * self._longest))
+
     @property
     def _place(self) -> str:
         """Pivot and tilt, in words."""
@@ -494,6 +516,10 @@ class StandUp(Pivoted):
         shape = np.shape(inertia.diagonal)
         momentum = np.broadcast_to(self.estimate * self._climb[:2], shape)
         return Slew(np.zeros(shape), momentum, SPIN_UP)
+
+    def as_built(self, slew: Slew, built: Built) -> Slew:
+        """With a brake, the wheels' speed is that of the design, whatever is built."""
+        return slew if self.braked else super().as_built(slew, built)
 
     @property
     def summary(self) -> str:

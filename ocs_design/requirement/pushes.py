@@ -13,7 +13,7 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import SpecificationError
 from ocs_design.common.units import Dimension
 from ocs_design.requirement.boundary import UPRIGHT, Boundary, Push, Y
-from ocs_design.requirement.maneuver import Impulse, Maneuver, Point, Slew, Time, row_text
+from ocs_design.requirement.maneuver import Built, Impulse, Maneuver, Point, Slew, Time, row_text
 from ocs_design.requirement.values import Quantities, Quantity, Sign, Vector3
 from ocs_design.robot.mass import MassProperties
 
@@ -146,6 +146,12 @@ class Disturbance(Unforeseen):
             torque=tuple((turned / self.duration).tolist()),
             velocity_change=tuple((np.array(self.impulse) / body.mass).tolist()),
         )
+
+    def as_built(self, slew: Slew, built: Built) -> Slew:
+        """The lever of a force is shorter by the offset: its angular impulse changes."""
+        turned = -np.cross(built.offset, self.impulse)[:, :2]
+        swept = slew.swept + 0.5 * self.duration * turned
+        return replace(slew, swept=swept, momentum=slew.momentum + turned)
 
     @property
     def momentum_of_body(self) -> FloatArray | None:

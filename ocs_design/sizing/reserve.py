@@ -25,7 +25,7 @@ from ocs_design.device.records.selection import (
     UncertaintyCost,
 )
 from ocs_design.requirement.bound import roll_momentum_per_rate
-from ocs_design.requirement.maneuver import Maneuver
+from ocs_design.requirement.maneuver import Built, Maneuver
 from ocs_design.requirement.requirement import ManeuverReserve, Requirement
 from ocs_design.requirement.uncertainty import UncertaintySection, complete_uncertainty, parts_of
 from ocs_design.requirement.vocabulary import RELIABILITY, SAMPLES_DRAWN
@@ -255,6 +255,7 @@ class SampledErrors:
         specified: section `[reality]`; missing values come from its file or the package.
         height: standing height of the robot [m].
         trunk: second moments of the trunk's mass along x, y and z [kg m^2], shape (3,).
+        trunk_mass: mass of the trunk alone, whose centre of mass is off [kg].
         pushes_off: whether jumps start on the ground.
         flight: flight time relative to a rigid robot's.
         known: key of a quantity that is measured, so always at its mean; empty: none.
@@ -263,6 +264,7 @@ class SampledErrors:
     specified: UncertaintySection
     height: float
     trunk: FloatArray
+    trunk_mass: float
     pushes_off: bool
     flight: float
     known: str = ""
@@ -274,10 +276,12 @@ class SampledErrors:
         """Errors of a robot that stands at this height [m]; `ballistic`: it never pushes off."""
         index = robot.tree.body_of_link[robot.trunk]
         placed = robot.tree.placements_from(robot.trunk, robot.posture)[index].rotation
-        inertia = placed @ robot.tree.bodies[index].mass_properties.inertia @ placed.T
+        body = robot.tree.bodies[index].mass_properties
+        inertia = placed @ body.inertia @ placed.T
         moments = np.trace(inertia) / 2.0 - np.diag(inertia)
         legs = 0 if ballistic else len(robot.legs)
-        return cls(specified, height, moments, legs > 0, FLIGHT_RATIO if legs > 3 else 1.0)
+        flight = FLIGHT_RATIO if legs > 3 else 1.0
+        return cls(specified, height, moments, body.mass, legs > 0, flight)
 
     def drawn(self, problem: SelectionProblem, device: Candidate) -> Mapping[str, FloatArray]:
         """Sampled values of each key, strata in random order, shape (robots, parts)."""
@@ -386,7 +390,7 @@ class _SampledManeuver:
         duration: in which it must be done [s], shape (robots, 1).
         share: fraction of the drives' capability that is used.
         tilt_left: fraction of what the wheels miss that remains as tilt at touchdown, see
-            `TILT_LEFT`.
+            `TILT_LEFT`; above 1 on a pivot, where gravity makes a tilt grow.
         axes: of the wheels as built, shape (robots, 2, n).
         bias: error of measured roll and pitch [rad], shape (robots, 2).
     """
@@ -425,7 +429,12 @@ class _SampledManeuver:
         from_mass = drawn["mass_error"] * np.diag(problem.robot.inertia)[:2]
         diagonal = nominal.diagonal + from_inertia + from_mass
         inertia = TiltInertia(diagonal, np.broadcast_to(nominal.product, len(diagonal)))
-        slew = maneuver.slew(inertia)
+        built_errors = Built(
+            offset=drawn["com_error"] * (errors.trunk_mass / device.total.mass),
+            weight=1.0 + drawn["mass_error"][:, 0] * (problem.robot.mass / device.total.mass),
+            bias=drawn["attitude_bias"],
+        )
+        slew = maneuver.as_built(maneuver.slew(inertia), built_errors)
         speed = maneuver.lift_off
         # A centre of mass off forward pitches the robot in push-off; one off to the left rolls it.
         off = drawn["com_error"][:, 1::-1] if errors.pushes_off else 0.0
@@ -459,14 +468,14 @@ class _SampledManeuver:
             device=device,
             designed_axes=device.layout.axes(at),
             nominal=nominal,
-            inertia=diagonal,
+            inertia=np.asarray(maneuver.turned(inertia).diagonal),
             # A turn cancels a tilt of the opposite sense.
             swept=slew.swept * (-1.0 if maneuver.push is None else 1.0),
             momentum=slew.momentum + diagonal * rates,
             rates=rates,
             duration=time - drawn["torque_delay"],
             share=share,
-            tilt_left=TILT_LEFT if reaches_level else 1.0,
+            tilt_left=TILT_LEFT if reaches_level else maneuver.growth,
             axes=axes,
             bias=drawn["attitude_bias"],
         )
