@@ -34,6 +34,7 @@ from ocs_design.export.drawing.wheel import inertia_error, inside_corners
 from ocs_design.export.drawing.wheel_sheet import draw_wheel, wheel_drawing, wheel_sheet
 from ocs_design.export.drawing.writers import pdf_of_pages
 from ocs_design.parts.pedestal import Pedestal
+from ocs_design.parts.rim import Hub
 from ocs_design.parts.solids import total
 from ocs_design.parts.wheel import Wheel, wheel_parts
 
@@ -269,7 +270,12 @@ def test_both_formats_show_the_same_texts():
     ]
 
 
-@pytest.mark.parametrize("drawing", [FLAT, HOLED], ids=["shrunk on", "one piece"])
+SMALL_HUB = replace(FLAT, wheel=Wheel(RIM, replace(WEB, hub=Hub(0.004, 0.005, 0.002))))
+
+
+@pytest.mark.parametrize(
+    "drawing", [FLAT, HOLED, SMALL_HUB], ids=["shrunk on", "one piece", "small hub"]
+)
 def test_the_note_has_the_inertia_of_rounded_corners(drawing):
     """The inertia 2 pi rho x^3 dz of a rounded corner of radius R, integrated over its width."""
     wheel = drawing.wheel
