@@ -19,6 +19,7 @@ from ocs_design.device.joints import (
 )
 from ocs_design.device.records.device import Margin
 from ocs_design.device.solids import foot_of, motor_mount
+from ocs_design.export.assembly.content import slipping
 from ocs_design.export.assembly_notes import drive_notes
 from ocs_design.export.device_parts import BLOCK, pedestal_kinds, printed_parts, ring_fixture
 from ocs_design.export.electrics import battery, controllers, wiring_parts
@@ -236,6 +237,7 @@ def _unweighed_rows(device: Device, margins: Sequence[Margin]) -> Iterator[BillR
     fixture = ring_fixture(device)
     bonds = ["ring on bell"] if fixture is not None else []
     bonds += ["guard ring in drum"] if device.guard_wall else []
+    bonds += ["around the screws of motor and cage"] if slipping(device) else []
     if bonds:
         bonded = " and ".join(bonds)
         where = f"{bonded}, or an epoxy that is as strong at 80 deg C; follow its maker's sheet"

@@ -10,13 +10,20 @@ from math import pi, sqrt
 
 from ocs_design.actuation.fasteners import CLASSES, BoltedJoint, Fastening
 from ocs_design.common.units import significant
+from ocs_design.device.device import Device
 from ocs_design.device.joints import balance_of, burst_of, foot_hold
+from ocs_design.device.solids import motor_mount
 from ocs_design.export.assembly.placed import Piece, bonding_pieces, module_pieces
 from ocs_design.export.device_parts import places, trunk_holes
 from ocs_design.export.formats import Documented, Subject
 from ocs_design.parts.foot import FootHold
 from ocs_design.parts.guard import Containment
-from ocs_design.parts.joints import joint_preload, tightening_torque
+from ocs_design.parts.joints import (
+    FRICTION,
+    TIGHTENING_FACTOR,
+    joint_preload,
+    tightening_torque,
+)
 from ocs_design.parts.printed import PETG, PRESSURE_SHARE, WASHER
 
 STRIP_SHARE = 1.0 / 3.0
@@ -39,6 +46,7 @@ class Tightened:
 
     Attributes:
         fastening: the screws.
+        preload: of each screw [N].
         torque: tightening torque [N m].
         rule: limit that sets the torque.
         engagement: minimum length of engaged thread [m].
@@ -46,6 +54,7 @@ class Tightened:
     """
 
     fastening: Fastening
+    preload: float
     torque: float
     rule: str
     engagement: float
@@ -76,9 +85,12 @@ def tightened(
     if joint is BoltedJoint.WHEEL:
         strength = fastening.strength
         filled = min(1.0, engagement / (CLASSES[strength].depth * screw.diameter))
-        share = filled * joint_preload(screw, strength) / (sheared * ALUMINIUM_SHEAR)
+        preload, torque = (
+            filled * full(screw, strength) for full in (joint_preload, tightening_torque)
+        )
+        share = preload / (sheared * ALUMINIUM_SHEAR)
         rule = f"the joint, as computed; {share:.0%} of the load that strips a thread in 6061-T6"
-        return Tightened(fastening, filled * tightening_torque(screw, strength), rule, engagement)
+        return Tightened(fastening, preload, torque, rule, engagement)
     limits = [(screw.preload, "class 8.8 at 90 % of yield (VDI 2230, friction 0.12)")]
     if joint.on_print:
         pressed, where = PRESSURE_SHARE * PETG.strength * screw.head_area, "head on PETG"
@@ -93,7 +105,37 @@ def tightened(
         stripped = THREAD_SHARE * sheared * ALUMINIUM_SHEAR
         limits.append((stripped, "thread in aluminium at half the load that strips it"))
     preload, rule = min(limits)
-    return Tightened(fastening, screw.torque(preload), rule, engagement, washers)
+    return Tightened(fastening, preload, screw.torque(preload), rule, engagement, washers)
+
+
+@dataclass(frozen=True)
+class Slipping:
+    """Screws of a motor's mount whose friction does not hold its torque.
+
+    Attributes:
+        fastening: the screws.
+        held: torque that they hold at their least preload [N m].
+        play: angle by which the motor turns in the play of their holes, back and forth [rad].
+    """
+
+    fastening: Fastening
+    held: float
+    play: float
+
+
+def slipping(device: Device) -> tuple[Slipping, ...]:
+    """Screws of the motor's mount that slip under its torque."""
+    found = []
+    for ring in motor_mount(device).screwed:
+        fastening, radius = ring.fastening, ring.circle.radius
+        if fastening.joint is BoltedJoint.WHEEL:
+            continue
+        least = tightened(fastening).preload / TIGHTENING_FACTOR
+        held = FRICTION * fastening.count * least * radius
+        if held < (device.motor.torque_limit or 0.0):
+            play = fastening.screw.clearance_hole - fastening.screw.diameter
+            found.append(Slipping(fastening, held, play / radius))
+    return tuple(found)
 
 
 @dataclass(frozen=True, eq=False)

@@ -23,7 +23,7 @@ from ocs_design.device.joints import (
 from ocs_design.device.layout import PAIR, SIDES
 from ocs_design.device.resonances import resonances_of
 from ocs_design.device.solids import drive_solids, foot_of, shaft_cut
-from ocs_design.export.assembly.content import LEAST_DRILL, Assembly, Tightened
+from ocs_design.export.assembly.content import LEAST_DRILL, Assembly, Tightened, slipping
 from ocs_design.export.device_parts import (
     BLOCK,
     foot_holes,
@@ -210,9 +210,18 @@ def _drive_steps(assembly: Assembly) -> Iterator[str]:
     text = {BoltedJoint.MOTOR_IN_CAGE: " Its wires come out between two posts, tied to one."}
     if joint is not None and joint.capacity is not None:
         text[BoltedJoint.WHEEL] = f" They carry the wheel by {joint.note}."
+    slip = {screws.fastening: screws for screws in slipping(device)}
     for screws in assembly.screws_of(*of_motor, BoltedJoint.CAGE, BoltedJoint.WHEEL):
-        joined = screws.fastening
-        yield f"{assembly.screwed(joined)}{text.get(joined.joint, '')}"
+        joined, filled = screws.fastening, ""
+        if joined in slip:
+            filled = (
+                f" Their friction may hold no more than {significant(slip[joined].held, 2)} of the "
+                f"motor's {significant(device.motor.torque_limit or 0.0, 2)} N m: wax their shanks "
+                f"and fill their holes in the prints with epoxy ({EPOXY}), or it turns by "
+                f"{format_quantity(slip[joined].play, 'deg', digits=2)} back and forth in their "
+                "play and may work them loose."
+            )
+        yield f"{assembly.screwed(joined)}{filled}{text.get(joined.joint, '')}"
     if joint is not None and joint.capacity is None:
         yield f"Mount the wheel on its drive by a joint of your own: {joint.note}."
     elif joint is not None and (strip := _height_strip(assembly)) is not None:

@@ -6,7 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from built_devices import DEVICES, MAST_PLATE, device_in_layout, housed_device
+from built_devices import CAGED, DEVICES, MAST_PLATE, device_in_layout, housed_device
 from hypothesis import given
 from hypothesis import strategies as st
 from wheel_drawings import box_of, check_words
@@ -21,7 +21,7 @@ from ocs_design.device.joints import balance_of, burst_of, foot_hold, rim_fit, y
 from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.device.records.device import Margin
 from ocs_design.device.resonances import resonances_of
-from ocs_design.device.solids import foot_of
+from ocs_design.device.solids import foot_of, motor_mount
 from ocs_design.export.assembly.booklet import assembly_pages, chapters, piece_rows, screw_rows
 from ocs_design.export.assembly.content import Assembly
 from ocs_design.export.assembly.views import BALLOON, pulled_apart, spread
@@ -213,6 +213,29 @@ def test_all_plates_are_made_each_to_its_sheet(inwards):
     assert row.quantity == 2
     for words in (text, row.remark):
         assert ("a sheet for each kind" in words) == bool(inwards)
+
+
+def test_screws_that_the_motor_turns_in_their_play_are_bedded():
+    """Heads press on PETG with half of 47 MPa; a torque wrench leaves 1 / 1.6 of that, and a
+    friction coefficient of 0.1 holds it."""
+    device = DEVICES["caged"]
+
+    def held(head, hole, radius):
+        return 0.1 * 4.0 * np.pi / 4.0 * (head**2 - hole**2) * 47e6 / 2.0 / 1.6 * radius
+
+    cage, ears = motor_mount(device).cage, motor_mount(device).holes.screws
+    by_motor = held(5.5e-3, 3.4e-3, CAGED.mounting.stator.radius)
+    by_cage = held(3.8e-3, 2.4e-3, ears.radius)
+    assert cage is not None
+    least, most = sorted((by_motor, by_cage))
+    for torque, count in ((0.99 * least, 0), (1.01 * least, 1), (1.01 * most, 2)):
+        strong = replace(device, motor=replace(device.motor, torque_limit=torque))
+        text = texts(Assembly("dog", strong), "Steps")
+        assert text.count("fill their holes in the prints with epoxy") == count
+        assert ("Scotch-Weld" in " ".join(row.part for row in bill_rows(strong))) == (count > 0)
+    assert f"no more than {by_motor:.2g} of the motor's" in text
+    turned = 180.0 / np.pi * 0.4e-3 / ears.radius
+    assert f"it turns by {turned:.2g} deg back and forth" in text
 
 
 @pytest.mark.parametrize(("angle", "filed"), [(0.0, True), (10.0, False)])
