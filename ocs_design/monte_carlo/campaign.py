@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import msgspec
-import mujoco
 import numpy as np
 
 from ocs_design.common.errors import OcsError
@@ -74,10 +73,8 @@ class Campaign:
         """Every scenario of one robot."""
         return [self.sampled_world(sample, number) for number in range(len(self.flights))]
 
-    def sampled_world(
-        self, sample: Sample, number: int, scratch: mujoco.MjData | None = None
-    ) -> World:
-        """Scenario `number` of one robot; `scratch`: see the function `sampled_world`."""
+    def sampled_world(self, sample: Sample, number: int) -> World:
+        """Scenario `number` of one robot."""
         return sampled_world(
             self.flights[number].world,
             sample,
@@ -85,7 +82,6 @@ class Campaign:
             air=self.air,
             limits=self.limits,
             period=self.hold * STEP,
-            scratch=scratch,
         )
 
     def judged(self, metrics: Metrics | None, number: int) -> Verdict:
@@ -107,13 +103,7 @@ def make_campaign(
     uncertainty: Uncertainty,
     seed: int,
 ) -> Campaign:
-    """The campaign of a design.
-
-    Args:
-        flights: as designed.
-        can_stand: of each maneuver, as found in its flights as designed.
-        seed: of all samples.
-    """
+    """The campaign of a design; `can_stand`: of each maneuver, as found in its designed flights."""
     worlds, device = map(flights.device_world, flights.maneuvers), flights.device
     designed = tuple(
         DesignedFlight(maneuver, world, stands, objection(world))
@@ -137,11 +127,8 @@ def fly_samples(
 ) -> Outcomes:
     """Fly every scenario of these samples, as many at once as fit into `MEMORY`.
 
-    Args:
-        campaign: what is flown.
-        indices: of the samples. Results of a sample do not depend on what it is flown with.
-        threads: of the physics; None: one per processor.
-        progress: called with the share of the work that is done, 0..1.
+    Results of a sample do not depend on what it is flown with. `threads` and `progress`: see
+    `simulate`.
     """
     # Freed models must leave no holes in the C library's heap, which would otherwise grow with
     # every batch: glibc's mallopt(M_MMAP_THRESHOLD, 1 MiB), where it exists.
@@ -166,12 +153,7 @@ def _fly_batch(
 ) -> Outcomes:
     """Fly every scenario of these samples in one batch, whose memory is freed on return."""
     samples = [campaign.sample(index) for index in indices]
-    scratch = [mujoco.MjData(flight.world.model) for flight in campaign.flights]
-    worlds = [
-        campaign.sampled_world(sample, number, data)
-        for sample in samples
-        for number, data in enumerate(scratch)
-    ]
+    worlds = [world for sample in samples for world in campaign.worlds(sample)]
     options = Options(hold=campaign.hold, threads=threads, engine=campaign.engine)
     flights = fly(worlds, options, progress)
     shape = (len(samples), len(campaign.flights))
@@ -284,12 +266,7 @@ WORST_FOLDER = "worst"
 def write_results(
     campaign: Campaign, outcomes: Outcomes, record: MonteCarloRecord, folder: Path, *, design: str
 ) -> tuple[Path, ...]:
-    """Write the results of a campaign in place of earlier ones.
-
-    Args:
-        campaign: the one flown. outcomes: of its samples. record: their summary.
-        folder: to write to.
-        design: hash of the design, for the cases.
+    """Write the results of a campaign in place of earlier ones; `design`: its hash, for the cases.
 
     Returns:
         The files, the record last.
@@ -323,12 +300,7 @@ def write_results(
 def replayed(
     campaign: Campaign, sample: Sample, *, pose_rate: float | None = None
 ) -> tuple[Run, ...]:
-    """Fly every scenario of one sample again; results equal those in the campaign.
-
-    Args:
-        campaign: of the sample. sample: to fly.
-        pose_rate: see `simulate`.
-    """
+    """Fly every scenario of one sample again; results equal those in the campaign."""
     flights = fly(campaign.worlds(sample), Options(hold=campaign.hold, pose_rate=pose_rate))
     return tuple(
         flight.run(

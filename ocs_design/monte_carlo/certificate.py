@@ -49,11 +49,7 @@ class SequentialTest:
         return ceil(10.0 / (1.0 - self.required) - 1e-9)
 
     def verdict_on(self, passed: NDArray[np.bool_]) -> tuple[Conclusion | None, int]:
-        """Verdict on flights in order, None if undecided so far, and how many flights it took.
-
-        Args:
-            passed: shape (n,).
-        """
+        """Verdict on n flights in order, None if undecided so far, and how many it took."""
         passed = passed[: self.most_flights]
         better = log(self.required / self.worse), log((1.0 - self.required) / (1.0 - self.worse))
         evidence = np.cumsum(np.where(passed, *better))
@@ -78,17 +74,11 @@ ROUNDS = 3
 
 
 def certificate(
-    test: SequentialTest,
-    campaign: Campaign,
-    outcomes: Outcomes,
-    *,
-    number: int = 0,
+    test: SequentialTest, campaign: Campaign, outcomes: Outcomes, *, number: int = 0
 ) -> ReliabilityRecord:
     """Result of a test on these outcomes; those after the verdict are not counted.
 
-    Args:
-        test: to apply. campaign, outcomes: what was flown.
-        number: of the round, see `ReliabilityRecord`.
+    `number`: of the round, see `ReliabilityRecord`.
     """
     finding, count = test.verdict_on(outcomes.all_passed)
     passed = outcomes.passed[:count]
@@ -137,9 +127,6 @@ def lesson(test: SequentialTest, campaign: Campaign, outcomes: Outcomes) -> Less
     Tilt at touchdown is nearly linear in the sampled quantities (docs/theory.md), and these are
     independent: so tilt is nearly normal, and the square of its correlation with a quantity is the
     share of its variance due to that quantity.
-
-    Args:
-        test: that was failed. campaign, outcomes: what was flown.
     """
     names = ("roll", "pitch")
     tilts = np.stack([outcomes.metric(f"touchdown_{name}") for name in names])

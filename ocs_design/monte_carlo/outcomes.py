@@ -129,13 +129,7 @@ def shares(outcomes: Outcomes) -> tuple[Share, ...]:
 
 
 def write_tables(outcomes: Outcomes, scenarios: Sequence[str], folder: Path) -> tuple[Path, ...]:
-    """Write one row per sample and scenario: verdict, figures of the flight, sampled values (SI).
-
-    Args:
-        outcomes: of all samples.
-        scenarios: their names.
-        folder: to write into.
-    """
+    """Write one row per sample and scenario: verdict, figures and sampled values (SI)."""
     samples, count = len(outcomes.index), len(scenarios)
     words = np.array(["pass", *map(str, FAULTS)])
     sampled_values = np.repeat(outcomes.values, count, axis=0)

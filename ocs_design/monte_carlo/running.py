@@ -79,9 +79,6 @@ def run_campaign(
     not depend on which block was fastest.
 
     Args:
-        campaign: what is flown.
-        blocks: of samples, in order.
-        fly: flies the blocks.
         storage: keeps blocks as they arrive, and has those flown already; None: nothing is kept.
         stop_when: stopping rule; None: all blocks are flown.
         progress: called with the share of the work that is done, 0..1.

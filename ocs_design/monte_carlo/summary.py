@@ -68,9 +68,7 @@ def severity_ranking(outcomes: Outcomes, maneuver: Maneuver, number: int) -> np.
 def causes(outcomes: Outcomes, ranking: np.ndarray) -> tuple[Cause, ...]:
     """Quantities whose rank correlates with that of the outcome, strongest first.
 
-    Args:
-        outcomes: of n samples.
-        ranking: from best to worst, see `severity_ranking`.
+    `ranking`: from best to worst, see `severity_ranking`.
     """
     n = len(ranking)
     varied = np.ptp(outcomes.values, axis=0) > 0.0
@@ -115,13 +113,8 @@ _NO_AUTHORITY = 1e-3
 def advice(outcomes: Outcomes, maneuver: Maneuver, number: int) -> str:
     """How to land level about an axis that modules turned by hand do not control.
 
-    The rate about such an axis at lift-off stays until landing.
-
-    Args:
-        outcomes: of n samples. maneuver: of scenario `number`.
-
-    Returns:
-        One sentence; empty if no sample fails for this reason.
+    The rate about such an axis at lift-off stays until landing. One sentence; empty if no sample
+    fails for this reason.
     """
     if maneuver.incidence is None:
         return ""
@@ -147,11 +140,7 @@ MOST_REFLOWN = 8
 def standing_advice(campaign: Campaign, outcomes: Outcomes, number: int) -> str:
     """Changes that keep up robots that land level and then fall, found by flying them again.
 
-    Args:
-        campaign: the one flown. outcomes: of it. number: of the scenario.
-
-    Returns:
-        One sentence; empty if none falls.
+    One sentence; empty if none falls.
     """
     falls = outcomes.codes[:, number] == 1 + FAULTS.index(Fault.STANDING)
     if not falls.any():

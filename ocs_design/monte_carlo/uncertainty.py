@@ -169,7 +169,6 @@ def sampled_world(
     air: AirDrag,
     limits: MotorLimits,
     period: float,
-    scratch: mujoco.MjData | None = None,
 ) -> World:
     """World of one flight of a sampled robot.
 
@@ -180,8 +179,6 @@ def sampled_world(
         limits: of a motor as designed, before friction is subtracted. The law uses these limits
             here, as it would if the drive itself supplied the current for friction.
         period: of the wheel law [s].
-        scratch: data of the world's model to work with, since making it takes as long as the rest;
-            None: it is made here.
     """
     model = copy.copy(world.model)
     # The robot's masses only; the device is made and weighed with more care.
@@ -203,7 +200,7 @@ def sampled_world(
     # The drives below apply the real motor's limits; friction can exceed them in braking.
     motors = list(world.addresses.motors)
     model.actuator_ctrllimited[motors] = model.actuator_forcelimited[motors] = 0
-    mujoco.mj_setConst(model, mujoco.MjData(model) if scratch is None else scratch)
+    mujoco.mj_setConst(model, mujoco.MjData(model))
 
     # Sampled friction is subtracted only once, from the motor's torque.
     law = replace(world.law, limits=stacked_columns([limits.usable]))

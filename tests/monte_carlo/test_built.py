@@ -183,16 +183,3 @@ def test_a_takeoff_rate_is_an_impulse_at_push_off(solo12, period):
     np.testing.assert_allclose(recording.impulse[-1, 0], expected, rtol=1e-3, atol=1e-6)
     gained = recording.momentum[-1, 0] - recording.momentum[0, 0]
     np.testing.assert_allclose(gained, recording.impulse[-1, 0], atol=1e-9)
-
-
-def test_reused_mujoco_data_does_not_change_the_samples(solo12):
-    """Samples built one after the other with shared data, and each with its own."""
-    campaign = short_campaign(solo12, UncertaintySection(), drop_only=True)
-    scratch = mujoco.MjData(campaign.flights[0].world.model)
-    for index in range(3):
-        sample = campaign.sample(index)
-        alone, shared = (campaign.sampled_world(sample, 0, data).model for data in (None, scratch))
-        for name in dir(alone):
-            value = getattr(alone, name)
-            if isinstance(value, np.ndarray):
-                np.testing.assert_array_equal(value, getattr(shared, name), err_msg=name)
