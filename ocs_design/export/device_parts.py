@@ -116,9 +116,6 @@ def printed_parts(device: Device) -> tuple[Part, ...]:
     """Drum, lid and foot of one wheel, and the cage of a back-mounted motor.
 
     They have the motor's holes if these are known and fit.
-
-    Raises:
-        PartError: they cannot be made.
     """
     foot, cage = foot_of(device), motor_mount(device).cage
     caged = () if cage is None else (cage_part(cage),)

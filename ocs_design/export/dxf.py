@@ -98,12 +98,12 @@ def drilling_text(drilling: Drilling) -> str:
                 space.add_lwpolyline(points, close=True, dxfattribs={"layer": FEET})
             case Lettering(place, text, height):
                 _add_text(space, text, place, height)
-    _, low, _, high = bounds(drilling.items)
+    (_, low, _, high), half = bounds(drilling.items), CHECK / 2.0
     if drilling.refused:
-        _add_text(space, drilling.refused, (-CHECK / 2.0, high + GAP / 2.0), 2.5)
+        _add_text(space, drilling.refused, (-half, high + GAP / 2.0), 2.5)
     for line, words in enumerate(drilling.words, start=1):
-        _add_text(space, words, (-CHECK / 2.0, low - line * GAP / 2.0), 2.5)
-    y, half = low - 3.0 * GAP, CHECK / 2.0
+        _add_text(space, words, (-half, low - line * GAP / 2.0), 2.5)
+    y = low - 3.0 * GAP
     ends = ((x, y - 2.0, x, y + 2.0) for x in (-half, half))
     for left, bottom, right, top in ((-half, y, half, y), *ends):
         space.add_line((left, bottom), (right, top), dxfattribs={"layer": TEXT})
@@ -134,8 +134,7 @@ def _text_of(document: Drawing) -> str:
 
 def _add_text(space: Modelspace, text: str, place: tuple[float, float], height: float) -> None:
     """Add a line of lettering that starts at `place` [mm]."""
-    attributes = {"layer": TEXT, "insert": place, "height": height}
-    space.add_text(text, dxfattribs=attributes)
+    space.add_text(text, dxfattribs={"layer": TEXT, "insert": place, "height": height})
 
 
 def _add_axes(space: Modelspace, across: float, along: float) -> None:

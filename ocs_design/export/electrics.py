@@ -44,11 +44,9 @@ def battery(motor: Drive, margins: Sequence[Margin]) -> str:
             watts = "" if power is None else f" ({_ceil(power)} W)"
             parts.append(f"{does} at least {_ceil(current)} A{watts}")
     at = "" if voltage is None else f" at {voltage:g} V"
-    energies = [
-        f"{significant(energy, 3)} J {way}"
-        for way, name in (("out", "energy from the bus"), ("back", "energy fed back"))
-        if (energy := demand_of(margins, name)) is not None
-    ]
+    both = {"out": "energy from the bus", "back": "energy fed back"}
+    taken = ((way, demand_of(margins, name)) for way, name in both.items())
+    energies = [f"{significant(most, 3)} J {way}" for way, most in taken if most is not None]
     most = f"; a maneuver takes at most {' and '.join(energies)}" if energies else ""
     return f"{' and '.join(parts)}{at}{most}" if parts else ""
 
@@ -68,12 +66,9 @@ def wiring_parts(device: Device, margins: Sequence[Margin]) -> Iterator[tuple[st
         fuse = f"; the next usual rating is {usual} A"
     fastest = motor.top_speed * motor.gear_ratio
     up_to = f", up to {rpm(fastest)}" if math.isfinite(fastest) else ""
-    yield (
-        "rotor angle sensor",
-        count,
-        "encoder at the motor's back with its magnet, or Hall sensors, that the controller "
-        f"reads{up_to}; not needed if the motor has one",
-    )
+    sensor = "encoder at the motor's back with its magnet, or Hall sensors, that the controller "
+    sensor += f"reads{up_to}; not needed if the motor has one"
+    yield "rotor angle sensor", count, sensor
     yield "fuse with holder", 1, f"between battery and switch: {flows}{fuse}"
     yield "switch", 1, f"within reach; carries and breaks {flows}"
     yield "bus cables, two wires", 1, f"battery to controllers, short: {flows}"

@@ -40,40 +40,24 @@ class Take:
 
 def add_white_sky(spec: mujoco.MjSpec) -> None:
     """Add a white background, which is visible through transparent parts."""
-    spec.add_texture(
-        name="ocs_sky",
-        type=mujoco.mjtTexture.mjTEXTURE_SKYBOX,
-        builtin=mujoco.mjtBuiltin.mjBUILTIN_FLAT,
-        rgb1=(1.0, 1.0, 1.0),
-        width=16,
-        height=16,
-    )
+    kind, flat = mujoco.mjtTexture.mjTEXTURE_SKYBOX, mujoco.mjtBuiltin.mjBUILTIN_FLAT
+    white = (1.0, 1.0, 1.0)
+    spec.add_texture(name="ocs_sky", type=kind, builtin=flat, rgb1=white, width=16, height=16)
 
 
 def show_floor(spec: mujoco.MjSpec, extent: float) -> None:
     """Add a chequered plane at z = 0 in sunlight, for a robot of that extent [m]."""
-    name = "ocs_floor"
-    spec.add_texture(
-        name=name,
-        type=mujoco.mjtTexture.mjTEXTURE_2D,
-        builtin=mujoco.mjtBuiltin.mjBUILTIN_CHECKER,
-        rgb1=(0.90, 0.91, 0.92),
-        rgb2=(0.80, 0.81, 0.83),
-        width=64,
-        height=64,
-    )
+    name, kind = "ocs_floor", mujoco.mjtTexture.mjTEXTURE_2D
+    look = {"rgb1": (0.90, 0.91, 0.92), "rgb2": (0.80, 0.81, 0.83), "width": 64, "height": 64}
+    chequered = mujoco.mjtBuiltin.mjBUILTIN_CHECKER
+    spec.add_texture(name=name, type=kind, builtin=chequered, **look)
     material = spec.add_material(name=name, texuniform=True)
     material.textures[mujoco.mjtTextureRole.mjTEXROLE_RGB] = name
     material.texrepeat = [CHEQUERS / extent] * 2
-    spec.worldbody.add_light(
-        type=mujoco.mjtLightType.mjLIGHT_DIRECTIONAL,
-        dir=(0.3, 0.4, -1.0),
-        diffuse=(0.5, 0.5, 0.5),
-        castshadow=False,
-    )
-    spec.worldbody.add_geom(
-        name=name, type=mujoco.mjtGeom.mjGEOM_PLANE, size=(0.0, 0.0, 1.0), material=name
-    )
+    sun = {"type": mujoco.mjtLightType.mjLIGHT_DIRECTIONAL, "dir": (0.3, 0.4, -1.0)}
+    spec.worldbody.add_light(**sun, diffuse=(0.5, 0.5, 0.5), castshadow=False)
+    plane = mujoco.mjtGeom.mjGEOM_PLANE
+    spec.worldbody.add_geom(name=name, type=plane, size=(0.0, 0.0, 1.0), material=name)
 
 
 def film_model(robot: Robot, device: Device, *, ocs: bool) -> mujoco.MjModel:
@@ -105,12 +89,12 @@ def rendered(takes: Iterable[Take], kind: str, read: Callable[[Path], T], what: 
         kind: `frames` or `views`. read: reads a result from its file. what: its name in messages.
     """
     with tempfile.TemporaryDirectory() as folder:
-        paths = [
-            (*written_take(take, Path(folder) / f"{i}"), Path(folder) / f"{i}.{kind}")
-            for i, take in enumerate(takes)
-        ]
-        draw([kind, *(str(path) for three in paths for path in three)], what)
-        return [read(result) for _, _, result in paths]
+        paths = []
+        for i, take in enumerate(takes):
+            stem = Path(folder) / f"{i}"
+            paths += [*written_take(take, stem), stem.with_suffix(f".{kind}")]
+        draw([kind, *map(str, paths)], what)
+        return [read(result) for result in paths[2::3]]
 
 
 def written_take(take: Take, stem: Path) -> tuple[Path, Path]:

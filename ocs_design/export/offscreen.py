@@ -176,14 +176,10 @@ def frames(model: mujoco.MjModel, qpos: FloatArray) -> NDArray[np.uint8]:
             camera.lookat = over
             renderer.update_scene(data, camera)
             # A disc on the floor below the robot represents its shadow.
-            mujoco.mjv_initGeom(
-                renderer.scene.geoms[renderer.scene.ngeom],
-                mujoco.mjtGeom.mjGEOM_CYLINDER,
-                np.array([radius, ABOVE_FLOOR * radius / 2.0, 0.0]),
-                np.array([over[0], over[1], ABOVE_FLOOR * radius]),
-                np.eye(3).ravel(),
-                np.array(SHADE, dtype=np.float32),
-            )
+            disc, kind = renderer.scene.geoms[renderer.scene.ngeom], mujoco.mjtGeom.mjGEOM_CYLINDER
+            size = np.array([radius, ABOVE_FLOOR * radius / 2.0, 0.0])
+            place = np.array([over[0], over[1], ABOVE_FLOOR * radius]), np.eye(3).ravel()
+            mujoco.mjv_initGeom(disc, kind, size, *place, np.array(SHADE, dtype=np.float32))
             renderer.scene.ngeom += 1
             renderer.render(out=frame)
     return images

@@ -34,11 +34,7 @@ def write(subject: Subject, folder: Path) -> Notes:
 
 
 def draw_pictures(device: Device, robot: Robot, model: RobotModel) -> dict[str, bytes]:
-    """PNG by name: `wheel`, `module` if it is more than the wheel, and the posed `robot`.
-
-    Raises:
-        MissingToolError: OpenGL does not work here.
-    """
+    """PNG by name: `wheel`, `module` if it is more than the wheel, and the posed `robot`."""
     shown = []
     for name, (part, place) in placed_parts(device).items():
         # The housing is transparent.

@@ -88,13 +88,9 @@ def robot_model(robot: Robot, device: Device) -> RobotModel:
         in_legs = leg_joints(robot)
         for name, held_joint in robot.tree.joints.items():
             if name not in in_legs and held_joint.mimic is None:
-                spec.add_equality(
-                    name=HOLD + name,
-                    type=mujoco.mjtEq.mjEQ_JOINT,
-                    objtype=mujoco.mjtObj.mjOBJ_JOINT,
-                    name1=name,
-                    data=[robot.posture[name] - float(spec.joint(name).ref), *[0.0] * 11],
-                )
+                kind = {"type": mujoco.mjtEq.mjEQ_JOINT, "objtype": mujoco.mjtObj.mjOBJ_JOINT}
+                offset = robot.posture[name] - float(spec.joint(name).ref)
+                spec.add_equality(name=HOLD + name, name1=name, data=[offset, *[0.0] * 11], **kind)
     attach_device(spec, robot, device)
     add_sensors(spec, robot, device)
     # Wheels and carriers get visual geoms without mass and contact.
@@ -111,13 +107,9 @@ def robot_model(robot: Robot, device: Device) -> RobotModel:
     still = [body for body in device_bodies(device) if not body.joint]
     shown = [(body.name, visual) for body in still for visual in still_visuals(device, body.module)]
     for body, visual in shown:
-        geom = spec.body(body).add_geom(
-            type=GEOM_TYPES[visual.kind],
-            pos=visual.place.position,
-            quat=quaternion(visual.place.rotation),
-            rgba=visual.color,
-            **quiet,
-        )
+        place = {"pos": visual.place.position, "quat": quaternion(visual.place.rotation)}
+        look = {"type": GEOM_TYPES[visual.kind], "rgba": visual.color}
+        geom = spec.body(body).add_geom(**place, **look, **quiet)
         if visual.mesh is None:
             geom.size = [*visual.size, 0.0, 0.0][:3]
         else:

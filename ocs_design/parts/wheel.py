@@ -86,14 +86,9 @@ class Web:
         """Corners of the upper half of its cross-section, from a rim's bore [m] inwards."""
         hub, level, edge = self.hub, self.thickness / 2.0, self.hub.chamfer
         top = hub.height / 2.0
-        return [
-            (bore, level),
-            (hub.radius, level),
-            (hub.radius, top - edge),
-            (hub.radius - edge, top),
-            (hub.bore_radius + edge, top),
-            (hub.bore_radius, top - edge),
-        ]
+        outside = (hub.radius, level), (hub.radius, top - edge), (hub.radius - edge, top)
+        inside = (hub.bore_radius + edge, top), (hub.bore_radius, top - edge)
+        return [(bore, level), *outside, *inside]
 
 
 @dataclass(frozen=True)
@@ -108,13 +103,10 @@ class Wheel:
     web: Web | None = None
 
     def __post_init__(self) -> None:
-        faults = list(wheel_faults(self))
-        if faults:
-            raise PartError(
-                "the wheel cannot be made: " + "; ".join(faults),
-                hint=f"leave {1e3 * LIGAMENT:g} mm between holes and edges, "
-                "or design the rim alone, without a web",
-            )
+        if faults := "; ".join(wheel_faults(self)):
+            left = f"leave {1e3 * LIGAMENT:g} mm between holes and edges"
+            hint = f"{left}, or design the rim alone, without a web"
+            raise PartError(f"the wheel cannot be made: {faults}", hint=hint)
 
     @property
     def shrunk_on(self) -> bool:
@@ -146,10 +138,8 @@ def wheel_faults(wheel: Wheel) -> Iterator[str]:
     if not 0.0 <= hub.bore_radius < hub.radius:
         yield "its bore is not narrower than its hub"
     if not hub.radius + LIGAMENT <= rim.inner_radius + ROUNDING:
-        yield (
-            f"its hub of {1e3 * hub.radius:.4g} mm radius leaves no web in the rim's "
-            f"{1e3 * rim.inner_radius:.4g} mm"
-        )
+        wide, bore = 1e3 * hub.radius, 1e3 * rim.inner_radius
+        yield f"its hub of {wide:.4g} mm radius leaves no web in the rim's {bore:.4g} mm"
     if not 0.0 < web.thickness <= rim.height - 2.0 * rim.chamfer:
         yield f"its web of {1e3 * web.thickness:.3g} mm is thicker than the rim is high"
     if hub.height < web.thickness + 2.0 * hub.chamfer:
@@ -184,17 +174,15 @@ def wheel_parts(wheel: Wheel) -> tuple[Part[float], ...]:
         half = rim.height / 2.0
         bottom = half - rim.cuts.hole_depth
         holes = (rim.balancing.prism(bottom, half), rim.balancing.prism(-half, -bottom))
+    alone = Part("rim", rim.density, (_mirrored(rim.corners),), holes)
     if web is None:
-        return (Part("rim", rim.density, (_mirrored(rim.corners),), holes),)
+        return (alone,)
     disc, ends = web.corners(rim.inner_radius), [web.height(r.circle_radius) for r in web.rings]
     both = zip(web.rings, ends, strict=True)
     drilled = tuple(ring.prism(-end / 2.0, end / 2.0) for ring, end in both)
     if not wheel.shrunk_on:
         return (Part("wheel", rim.density, (_mirrored([*rim.corners, *disc]),), holes + drilled),)
-    return (
-        Part("rim", rim.density, (_mirrored(rim.corners),), holes),
-        Part("hub", web.density, (_mirrored(disc),), drilled),
-    )
+    return alone, Part("hub", web.density, (_mirrored(disc),), drilled)
 
 
 def _mirrored(upper: list[Point]) -> Revolution:

@@ -56,15 +56,10 @@ _BONDING_BOX: Box = (_SECTION_BOX[0], BOTTOM - 74.0, *_SECTION_BOX[2:])
 
 
 _LABELS = {
-    "flywheel": "flywheel",
-    "rim": "rim",
     "hub": "web with hub",
-    "motor": "motor",
-    "gear": "gear",
     "gear_2": "gear, at the motor",
     "drum": "housing, drum",
     "lid": "housing, lid",
-    "foot": "foot",
     "cage": "cage of the motor",
     "guard": "guard ring",
     "plate": "plate under the feet",

@@ -8,7 +8,7 @@ import math
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
-from enum import StrEnum
+from enum import Enum
 from typing import TypeAlias
 
 from reportlab.pdfbase.pdfmetrics import stringWidth
@@ -60,15 +60,12 @@ THIN = Pen(0.25)
 CENTRE = Pen(0.25, (6.0, 1.0, 0.6, 1.0))
 
 
-class Anchor(StrEnum):
-    """Part of a text that is at its position; the values are SVG's."""
+class Anchor(Enum):
+    """Part of a text that is at its position, as a share of its length."""
 
-    START = "start"
-    MIDDLE = "middle"
-    END = "end"
-
-
-_ANCHOR_FRACTION = {Anchor.START: 0.0, Anchor.MIDDLE: 0.5, Anchor.END: 1.0}
+    START = 0.0
+    MIDDLE = 0.5
+    END = 1.0
 
 
 @dataclass(frozen=True)
@@ -140,7 +137,7 @@ class Lettering:
     def start(self) -> Point:
         """Start of its first letter on the baseline."""
         x, y = self.place
-        back = _ANCHOR_FRACTION[self.anchor] * self.width
+        back = self.anchor.value * self.width
         return (x, y + back) if self.upright else (x - back, y)
 
 
@@ -178,9 +175,8 @@ def largest_scale(*lengths: tuple[float, float], standard: bool = True) -> Scale
     Each entry is a length of the part [m] and the space for it on paper [mm].
     """
     steps = _STANDARD if standard else _FINE
-    enlarged = [Scale(step * 10**power, 1) for power in (2, 1, 0) for step in reversed(steps)]
-    reduced = [Scale(1, step * 10**power) for power in range(7) for step in steps][1:]
-    scales = [*enlarged, *reduced]
+    scales = [Scale(step * 10**power, 1) for power in (2, 1, 0) for step in reversed(steps)]
+    scales += [Scale(1, step * 10**power) for power in range(7) for step in steps][1:]
     fitting = (scale for scale in scales if all(scale(length) <= room for length, room in lengths))
     return next(fitting, scales[-1])
 
@@ -227,14 +223,8 @@ def hatching(
             for (u0, v0), (u1, v1) in zip(ring, [*ring[1:], ring[0]], strict=True)
             if (v0 <= v) != (v1 <= v)
         )
-        lines += [
-            Line(
-                (_DIAGONAL * a + side * v, -side * a + _DIAGONAL * v),
-                (_DIAGONAL * b + side * v, -side * b + _DIAGONAL * v),
-                THIN,
-            )
-            for a, b in zip(crossings[::2], crossings[1::2], strict=True)
-        ]
+        ends = [(_DIAGONAL * u + side * v, -side * u + _DIAGONAL * v) for u in crossings]
+        lines += [Line(a, b, THIN) for a, b in zip(ends[::2], ends[1::2], strict=True)]
     return lines
 
 
@@ -307,14 +297,10 @@ def vertical_dimension(
     """
     top, bottom = middle - half, middle + half
     line_end, line_start = x - OVERHANG, outline_x - OVERHANG / 2.0
-    return [
-        Line((line_start, top), (line_end, top)),
-        Line((line_start, bottom), (line_end, bottom)),
-        Line((x, top), (x, bottom)),
-        arrow((x, top), (0.0, -1.0)),
-        arrow((x, bottom), (0.0, 1.0)),
-        Lettering((x - TEXT_RAISE, middle), label, anchor=Anchor.MIDDLE, upright=True),
-    ]
+    text = Lettering((x - TEXT_RAISE, middle), label, anchor=Anchor.MIDDLE, upright=True)
+    lines = [Line((line_start, y), (line_end, y)) for y in (top, bottom)]
+    arrows = arrow((x, top), (0.0, -1.0)), arrow((x, bottom), (0.0, 1.0))
+    return [*lines, Line((x, top), (x, bottom)), *arrows, text]
 
 
 def horizontal_dimension(
@@ -324,21 +310,15 @@ def horizontal_dimension(
 
     In the latter case the arrows are outside if there is no room between them.
     """
-    if text_x is None:
-        arrows_outside, end = False, right
-        text = Lettering(((left + right) / 2.0, y - TEXT_RAISE), label, anchor=Anchor.MIDDLE)
-    else:
-        arrows_outside = right - left < 3.0 * ARROW
+    start, end, side = left, right, 1.0
+    text = Lettering(((left + right) / 2.0, y - TEXT_RAISE), label, anchor=Anchor.MIDDLE)
+    if text_x is not None:
         text = Lettering((text_x, y - TEXT_RAISE), label)
         end = text_x + text.width
-    side = -1.0 if arrows_outside else 1.0
-    start = left - 2.0 * ARROW if arrows_outside else left
-    return [
-        Line((start, y), (end, y)),
-        arrow((left, y), (-side, 0.0)),
-        arrow((right, y), (side, 0.0)),
-        text,
-    ]
+        if right - left < 3.0 * ARROW:
+            start, side = left - 2.0 * ARROW, -1.0
+    arrows = arrow((left, y), (-side, 0.0)), arrow((right, y), (side, 0.0))
+    return [Line((start, y), (end, y)), *arrows, text]
 
 
 def extension_line(x: float, start: float, end: float) -> Line:

@@ -9,8 +9,8 @@ from manifold3d import Manifold, Mesh64
 
 from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.device.solids import motor_mount
-from ocs_design.export.assembly.line_art import section_lines, visible_lines
 from ocs_design.export.assembly.placed import module_pieces, placed_parts
+from ocs_design.export.assembly.views import section_lines, visible_lines
 from ocs_design.export.assembly_notes import drive_notes
 from ocs_design.export.device_parts import foot_holes
 from ocs_design.export.meshes import Mesh, solid_mesh
