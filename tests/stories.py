@@ -43,7 +43,11 @@ def flight(scenario="drop", *, ocs=True, limits=True):
     if limits:
         columns["wheel_torque_lowest_left_nm"] = np.full_like(time, -1.0)
         columns["wheel_torque_highest_left_nm"] = np.full_like(time, 1.0)
-    return RecordedFlight(scenario, ocs, columns, 0.0, float(time[time < TOUCHDOWN][-1]), None)
+    times = {"lift_off_time": 0.0, "touchdown_time": float(time[time < TOUCHDOWN][-1])}
+    record = ValidationRecord(
+        scenario=scenario, ocs=ocs, passed=ocs, reason="", note="", metrics=times
+    )
+    return RecordedFlight(record, columns)
 
 
 def story(scenario="drop", motor=MOTOR):

@@ -51,8 +51,51 @@ class ShownBody:
 
 
 def read_bodies(glb: bytes) -> tuple[ShownBody, ...]:
-    """All bodies that have surfaces, in tree order."""
-    return tuple(body for body in _GlbReader(glb).bodies() if body.surfaces)
+    """All bodies that have surfaces, in tree order, from a file written by `export.glb`.
+
+    Nodes with a mesh are geoms, the others bodies; the root only turns the base frame upright.
+    """
+    length = int.from_bytes(glb[_HEADER : _HEADER + 4], "little")
+    start = _HEADER + _CHUNK
+    document: Mapping[str, Any] = json.loads(glb[start : start + length])
+    nodes, buffer = document["nodes"], glb[start + length + _CHUNK :]
+
+    def values(accessor: int) -> NDArray[Any]:
+        """Values of an accessor, three in a row."""
+        entry = document["accessors"][accessor]
+        view = document["bufferViews"][entry["bufferView"]]
+        content = buffer[view["byteOffset"] : view["byteOffset"] + view["byteLength"]]
+        return np.frombuffer(content, _COMPONENT_TYPES[entry["componentType"]]).reshape(-1, 3)
+
+    def below(index: int, parent: Placement) -> Iterator[ShownBody]:
+        """The body of a node, with one surface for all geoms of one colour, and those below it."""
+        placement, children = parent @ _placement(nodes[index]), nodes[index].get("children", ())
+        by_color: dict[Color, list[tuple[FloatArray, NDArray[np.int64]]]] = {}
+        for geom in (nodes[child] for child in children if "mesh" in nodes[child]):
+            frame = _placement(geom)
+            for primitive in document["meshes"][geom["mesh"]]["primitives"]:
+                points = values(primitive["attributes"]["POSITION"]).astype(np.float64)
+                faces = values(primitive["indices"]).astype(np.int64)
+                material = document["materials"][primitive["material"]]["pbrMetallicRoughness"]
+                red, green, blue, opacity = material["baseColorFactor"]
+                color = _srgb(red), _srgb(green), _srgb(blue), opacity
+                in_body = points @ frame.rotation.T + frame.position
+                by_color.setdefault(color, []).append((in_body, faces))
+        surfaces = []
+        for color, pieces in by_color.items():
+            counts = np.cumsum([0, *(len(points) for points, _ in pieces)])
+            shifted = [faces + first for (_, faces), first in zip(pieces, counts, strict=False)]
+            vertices = np.concatenate([points for points, _ in pieces])
+            surfaces.append(Surface(vertices, np.concatenate(shifted), color))
+        if surfaces:
+            yield ShownBody(nodes[index]["name"], placement, tuple(surfaces))
+        for child in children:
+            if "mesh" not in nodes[child]:
+                yield from below(child, placement)
+
+    (root,) = document["scenes"][0]["nodes"]
+    trunks = nodes[root].get("children", ())
+    return tuple(body for child in trunks for body in below(child, Placement.identity()))
 
 
 def still_picture(bodies: Sequence[ShownBody]) -> NDArray[np.uint8]:
@@ -64,62 +107,6 @@ def still_picture(bodies: Sequence[ShownBody]) -> NDArray[np.uint8]:
             points = surface.vertices @ place.rotation.T + place.position
             shapes.append((points[surface.faces], surface.color))
     return picture(shapes)
-
-
-class _GlbReader:
-    """Reader of a file written by `export.glb`: nodes with a mesh are geoms, the others bodies."""
-
-    def __init__(self, glb: bytes) -> None:
-        length = int.from_bytes(glb[_HEADER : _HEADER + 4], "little")
-        start = _HEADER + _CHUNK
-        self._document: Mapping[str, Any] = json.loads(glb[start : start + length])
-        self._buffer = glb[start + length + _CHUNK :]
-
-    def bodies(self) -> Iterator[ShownBody]:
-        """All bodies in B; the root only turns the base frame upright."""
-        (root,) = self._document["scenes"][0]["nodes"]
-        for child in self._document["nodes"][root].get("children", ()):
-            yield from self._below(child, Placement.identity())
-
-    def _below(self, index: int, parent: Placement) -> Iterator[ShownBody]:
-        node = self._document["nodes"][index]
-        placement = parent @ _placement(node)
-        children = node.get("children", ())
-        geoms = [child for child in children if "mesh" in self._document["nodes"][child]]
-        # Surfaces, one for all geoms of one colour.
-        by_color: dict[Color, list[tuple[FloatArray, NDArray[np.int64]]]] = {}
-        for geom_index in geoms:
-            geom_node = self._document["nodes"][geom_index]
-            geom_placement = _placement(geom_node)
-            for primitive in self._document["meshes"][geom_node["mesh"]]["primitives"]:
-                points = self._values(primitive["attributes"]["POSITION"]).reshape(-1, 3)
-                in_body = (
-                    points.astype(np.float64) @ geom_placement.rotation.T + geom_placement.position
-                )
-                faces = self._values(primitive["indices"]).reshape(-1, 3).astype(np.int64)
-                material = self._document["materials"][primitive["material"]][
-                    "pbrMetallicRoughness"
-                ]
-                red, green, blue, opacity = material["baseColorFactor"]
-                color = _srgb(red), _srgb(green), _srgb(blue), opacity
-                by_color.setdefault(color, []).append((in_body, faces))
-        surfaces = []
-        for color, pieces in by_color.items():
-            counts = np.cumsum([0, *(len(points) for points, _ in pieces)])
-            shifted = [faces + first for (_, faces), first in zip(pieces, counts, strict=False)]
-            vertices = np.concatenate([points for points, _ in pieces])
-            surfaces.append(Surface(vertices, np.concatenate(shifted), color))
-        yield ShownBody(node["name"], placement, tuple(surfaces))
-        for child in children:
-            if child not in geoms:
-                yield from self._below(child, placement)
-
-    def _values(self, accessor: int) -> NDArray[Any]:
-        entry = self._document["accessors"][accessor]
-        view = self._document["bufferViews"][entry["bufferView"]]
-        start = view["byteOffset"]
-        content = self._buffer[start : start + view["byteLength"]]
-        return np.frombuffer(content, dtype=_COMPONENT_TYPES[entry["componentType"]])
 
 
 def _placement(node: Mapping[str, Any]) -> Placement:

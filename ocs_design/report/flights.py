@@ -9,13 +9,7 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.common.units import rpm, rpm_number
 from ocs_design.common.wording import degrees, degrees_number, grams, listed
 from ocs_design.device.records.design import OcsDesign
-from ocs_design.device.records.flights import (
-    SurvivalRecord,
-    ValidationRecord,
-    lift_off_and_touchdown,
-    was_in_the_air,
-    was_on_pivot,
-)
+from ocs_design.device.records.flights import SurvivalRecord, ValidationRecord
 from ocs_design.device.records.requirement import DemandRecord
 from ocs_design.report.table import Cell, CellTable, Tone, Toned, columns
 from ocs_design.requirement.maneuver import Maneuver
@@ -64,13 +58,13 @@ def flight_table(runs: Sequence[ValidationRecord], *, one_scenario: bool = False
     names = ((("with" if one_scenario else run.scenario) if run.ocs else without) for run in runs)
     rows: list[tuple[Cell, ...]] = []
     for name, run in zip(names, runs, strict=True):
-        metrics, was_airborne = run.metrics, was_in_the_air(*lift_off_and_touchdown(run.metrics))
+        metrics = run.metrics
         is_known = {
-            "touchdown_pitch": was_airborne,
-            "touchdown_roll": was_airborne,
+            "touchdown_pitch": run.was_airborne,
+            "touchdown_roll": run.was_airborne,
             "final_pitch": True,
             "final_roll": True,
-            "turned_angle": was_airborne and not was_on_pivot(run),
+            "turned_angle": run.was_airborne and not run.was_on_pivot,
         }
         angles = (metrics.get(angle) if known else None for angle, known in is_known.items())
         speed, torque = (
@@ -86,14 +80,14 @@ def flight_table(runs: Sequence[ValidationRecord], *, one_scenario: bool = False
                 "-" if torque is None else f"{torque:.3g}",
             )
         )
-    judged_at = {"when due" if was_on_pivot(run) else "touchdown" for run in runs}
+    judged_at = {"when due" if run.was_on_pivot else "touchdown" for run in runs}
     when = " or ".join(sorted(judged_at, reverse=True)) or "touchdown"
     return CellTable(columns(first, "<verdict", f"{when}\npitch [deg]", *_COLUMNS), tuple(rows))
 
 
 def flights_title(runs: Iterable[ValidationRecord]) -> str:
     """Meaning of the angles of `short_verdict`, as title of a table of these flights."""
-    pivots = [was_on_pivot(run) for run in runs]
+    pivots = [run.was_on_pivot for run in runs]
     if all(pivots):
         return "degrees off balance when due upright"
     balance = ", or off balance" if any(pivots) else ""

@@ -13,12 +13,7 @@ from ocs_design.common.errors import OcsError
 from ocs_design.common.files import safe_name
 from ocs_design.device.answers import CERTIFICATE_FOLDER, RESULT_FILE, MonteCarloRecord, PostureLine
 from ocs_design.device.records.design import OcsDesign
-from ocs_design.device.records.flights import (
-    ValidationRecord,
-    lift_off_and_touchdown,
-    was_in_the_air,
-    was_on_pivot,
-)
+from ocs_design.device.records.flights import ValidationRecord
 from ocs_design.export.assembly.content import Assembly
 from ocs_design.report.bodies import ShownBody, read_bodies
 from ocs_design.simulation.run import Poses, Run
@@ -29,29 +24,14 @@ class RecordedFlight:
     """One simulated run, ready for plotting.
 
     Attributes:
-        scenario: name of the maneuver. ocs: whether the device was on the robot.
+        record: its scenario, verdict and metrics.
         columns: time series by the headings of the CSV files, which name the SI units.
-        lift_off: time of lift-off, or of the push on a standing robot [s]; None if there is none.
-        touchdown: time of touchdown [s]; None if there is none.
         poses: poses for the replay; None if only the time series are known.
-        on_pivot: see `was_on_pivot`.
     """
 
-    scenario: str
-    ocs: bool
+    record: ValidationRecord
     columns: Mapping[str, FloatArray]
-    lift_off: float | None
-    touchdown: float | None
-    poses: Poses | None
-    on_pivot: bool = False
-
-    @classmethod
-    def of(
-        cls, record: ValidationRecord, columns: Mapping[str, FloatArray], poses: Poses | None = None
-    ) -> "RecordedFlight":
-        """Flight of a record with its time series."""
-        times = lift_off_and_touchdown(record.metrics)
-        return cls(record.scenario, record.ocs, columns, *times, poses, was_on_pivot(record))
+    poses: Poses | None = None
 
     @property
     def time(self) -> FloatArray:
@@ -79,27 +59,13 @@ class RecordedFlight:
 
         For a robot that never left the ground this is the last sample.
         """
-        if self.lift_off is None:
+        lift_off, touchdown = self.record.lift_off, self.record.touchdown
+        if lift_off is None:
             return slice(-1, None)
-        first = int(np.searchsorted(self.time, self.lift_off))
-        if self.was_airborne and self.touchdown is not None:
-            return slice(first, int(np.searchsorted(self.time, self.touchdown)) + 1)
+        first = int(np.searchsorted(self.time, lift_off))
+        if self.record.was_airborne and touchdown is not None:
+            return slice(first, int(np.searchsorted(self.time, touchdown)) + 1)
         return slice(first, None)
-
-    @property
-    def was_airborne(self) -> bool:
-        """Whether it was in the air at all."""
-        return was_in_the_air(self.lift_off, self.touchdown)
-
-
-def recorded_flights(
-    records: Sequence[ValidationRecord], runs: Sequence[Run]
-) -> tuple[RecordedFlight, ...]:
-    """Flights to plot, from the runs of a simulation and their records."""
-    pairs = zip(records, runs, strict=True)
-    return tuple(
-        RecordedFlight.of(record, run.series.columns(), run.poses) for record, run in pairs
-    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,10 +92,8 @@ class Story:
 
     @property
     def pivots(self) -> frozenset[str]:
-        """Scenarios about a pivot (`was_on_pivot`)."""
-        return frozenset(
-            record.scenario for record in self.design.validation if was_on_pivot(record)
-        )
+        """Scenarios about a pivot."""
+        return frozenset(run.scenario for run in self.design.validation if run.was_on_pivot)
 
 
 def read_story(
@@ -147,19 +111,22 @@ def read_story(
     `runs` and not read; for the other arguments see `Story`.
     """
     flights: list[RecordedFlight] = []
-    for record in design.validation if not runs else ():
+    for index, record in enumerate(design.validation):
+        if runs:
+            run = runs[index]
+            flights.append(RecordedFlight(record, run.series.columns(), run.poses))
+            continue
         # The CSV file may have been deleted.
         path = _first_file(folders, f"validation/{series_file(record.scenario, ocs=record.ocs)}")
         if path is not None:
             with path.open(encoding="utf-8", newline="") as file:
                 heading, *rows = csv.reader(file)
             values = np.array(rows, dtype=np.float64)
-            flights.append(RecordedFlight.of(record, dict(zip(heading, values.T, strict=True))))
-    recorded = recorded_flights(design.validation, runs) if runs else tuple(flights)
+            flights.append(RecordedFlight(record, dict(zip(heading, values.T, strict=True))))
     glb = _first_file(folders, f"robot/{safe_name(design.robot.name)}_ocs.glb")
     bodies = () if glb is None else read_bodies(glb.read_bytes())
     campaign = read_campaign(folders)
-    return Story(design, recorded, bodies, postures, campaign, command, assembly)
+    return Story(design, tuple(flights), bodies, postures, campaign, command, assembly)
 
 
 def _first_file(folders: Sequence[Path], name: str) -> Path | None:

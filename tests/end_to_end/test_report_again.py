@@ -78,11 +78,9 @@ def test_a_report_into_the_folder_of_the_design_keeps_other_files(design):
 def test_flights_of_the_story_are_read_from_their_files(product):
     folder = product.folder
     story = read_story([Path("/nowhere"), folder], read_design(folder / "design.json"))
-    assert [(flight.scenario, flight.ocs) for flight in story.flights] == [
-        (run.scenario, run.ocs) for run in story.design.validation
-    ]
-    for flight, record in zip(story.flights, story.design.validation, strict=True):
-        assert flight.touchdown == pytest.approx(record.metrics["touchdown_time"], abs=0.006)
+    assert [flight.record for flight in story.flights] == list(story.design.validation)
+    for flight in story.flights:
+        assert flight.time[-1] >= flight.record.metrics["touchdown_time"]
 
 
 def test_an_unreadable_campaign_is_an_error(tmp_path, product):

@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import Annotated, TypeAlias
+from typing import Annotated
 
 from ocs_design.common.ranges import OneOf, Positive, Range
 from ocs_design.requirement.vocabulary import PROJECTIONS
@@ -50,30 +50,30 @@ class ValidationRecord:
     level: bool | None = None
     stands: bool | None = None
 
+    @property
+    def lift_off(self) -> float | None:
+        """Time of lift-off, or of the push on a standing robot [s]; None if there is none."""
+        # Older versions do not record lift-off; all of their flights start in the air.
+        return self.metrics.get("lift_off_time", 0.0 if self.metrics else None)
 
-RunMetrics: TypeAlias = Mapping[str, float | bool | None]
-"""Metrics of a recorded run by name, SI."""
+    @property
+    def touchdown(self) -> float | None:
+        """Time of touchdown [s]; None if there is none."""
+        return self.metrics.get("touchdown_time")
 
+    @property
+    def was_airborne(self) -> bool:
+        """Whether it left the ground; for shoves of a standing robot, touchdown is the start."""
+        lift_off, touchdown = self.lift_off, self.touchdown
+        return lift_off is not None and (touchdown is None or touchdown > lift_off)
 
-def lift_off_and_touchdown(metrics: RunMetrics) -> tuple[float | None, float | None]:
-    """Times of lift-off and touchdown of a recorded run [s]; None: it never happens."""
-    # Older versions do not record lift-off; all of their flights start in the air.
-    lift_off = metrics.get("lift_off_time", 0.0 if metrics else None)
-    return lift_off, metrics.get("touchdown_time")
+    @property
+    def was_on_pivot(self) -> bool:
+        """Whether it was on a pivot: it is judged only by standing, and was not pushed.
 
-
-def was_in_the_air(lift_off: float | None, touchdown: float | None) -> bool:
-    """Whether a run left the ground; for shoves of a standing robot, touchdown is the start."""
-    return lift_off is not None and (touchdown is None or touchdown > lift_off)
-
-
-def was_on_pivot(run: ValidationRecord) -> bool:
-    """Whether a run was on a pivot: it is judged only by standing, and was not pushed.
-
-    Its touchdown time is the time at which it must be upright.
-    """
-    flew = was_in_the_air(*lift_off_and_touchdown(run.metrics))
-    return run.level is None and run.stands is not None and flew
+        Its touchdown time is the time at which it must be upright.
+        """
+        return self.level is None and self.stands is not None and self.was_airborne
 
 
 @dataclass(frozen=True, kw_only=True)

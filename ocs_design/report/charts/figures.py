@@ -16,7 +16,7 @@ def scenario_charts(story: Story) -> Mapping[str, tuple[Chart, ...]]:
     """Time series of each maneuver, by name."""
     flights: dict[str, list[RecordedFlight]] = {}
     for flight in story.flights:
-        flights.setdefault(flight.scenario, []).append(flight)
+        flights.setdefault(flight.record.scenario, []).append(flight)
     return {scenario: tuple(time_charts(scenario, own)) for scenario, own in flights.items()}
 
 

@@ -30,7 +30,7 @@ def time_charts(scenario: str, flights: Sequence[RecordedFlight]) -> Iterator[Ch
     The flight with the device comes first.
     """
     tolerance = to_unit(LANDING_TOLERANCE, "deg")
-    on_pivot = any(flight.on_pivot for flight in flights)
+    on_pivot = any(flight.record.was_on_pivot for flight in flights)
     rule_name = f"allowed {'when due' if on_pivot else 'at touchdown'}"
     allowed = [
         Rule(side * tolerance, upright=False, ink=Ink.FAINT, name=rule_name) for side in (-1.0, 1.0)
@@ -77,7 +77,7 @@ def time_charts(scenario: str, flights: Sequence[RecordedFlight]) -> Iterator[Ch
         _tilt_curves(flights, "rate_{letter}_rad_s", "deg/s", thin=True),
     )
     for flight in flights:
-        if not flight.ocs:
+        if not flight.record.ocs:
             continue
         yield chart(
             "wheel_speed",
@@ -117,8 +117,8 @@ def _tilt_curves(
             flight.time,
             in_unit(flight.columns[column.format(axis=axis, letter=letter)], unit),
             ink,
-            f"{axis} {'with' if flight.ocs else 'without'}",
-            dashed=not flight.ocs,
+            f"{axis} {'with' if flight.record.ocs else 'without'}",
+            dashed=not flight.record.ocs,
             thin=thin,
         )
         for flight in flights
@@ -145,15 +145,16 @@ def _wheel_curves(
 
 def _events(flights: Sequence[RecordedFlight]) -> list[Rule]:
     """Rules at the last lift-off, or push, and at the first touchdown of the flights."""
-    lift_off = max((flight.lift_off or 0.0 for flight in flights), default=0.0)
+    records = [flight.record for flight in flights]
+    lift_off = max((record.lift_off or 0.0 for record in records), default=0.0)
     touchdowns = [
-        flight.touchdown
-        for flight in flights
-        if flight.was_airborne and flight.touchdown is not None
+        record.touchdown
+        for record in records
+        if record.was_airborne and record.touchdown is not None
     ]
-    start_label = "lift-off" if any(flight.was_airborne for flight in flights) else "push"
+    start_label = "lift-off" if any(record.was_airborne for record in records) else "push"
     times = [(lift_off, start_label)] if lift_off > 0.0 else []
-    end_label = "upright by now" if any(flight.on_pivot for flight in flights) else "touchdown"
+    end_label = "upright by now" if any(record.was_on_pivot for record in records) else "touchdown"
     times += [(min(touchdowns), end_label)] if touchdowns else []
     return [Rule(time, upright=True, label=label, ink=Ink.FAINT) for time, label in times]
 
@@ -170,7 +171,7 @@ def _largest_torque(motor: Drive, speed: FloatArray, share: float) -> FloatArray
 
 def drive_charts(motor: Drive, flights: Sequence[RecordedFlight]) -> Iterator[Chart]:
     """Torque and speed in all four quadrants; none if no flight has the device."""
-    with_device = [flight for flight in flights if flight.ocs]
+    with_device = [flight for flight in flights if flight.record.ocs]
     if not with_device:
         return
     # The path of each wheel up to the instant of the verdict; the rest is not part of the maneuver.
@@ -179,7 +180,7 @@ def drive_charts(motor: Drive, flights: Sequence[RecordedFlight]) -> Iterator[Ch
             in_unit(flight.wheel_speed(wheel)[flight.driven_samples], "rpm"),
             flight.wheel_torque(wheel)[flight.driven_samples],
             ink,
-            "" if index else flight.scenario,
+            "" if index else flight.record.scenario,
             dashed=index > 0,
         )
         for flight, ink in zip(with_device, SERIES * 2, strict=False)

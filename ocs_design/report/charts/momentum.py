@@ -69,13 +69,13 @@ def maneuver_momenta(story: Story) -> tuple[ManeuverMomentum, ...]:
     }
     momenta = []
     for flight in story.flights:
-        if flight.ocs:
-            incidence = incidences.get(flight.scenario)
+        if flight.record.ocs:
+            incidence = incidences.get(flight.record.scenario)
             incidence = ocs.incidence if incidence is None else incidence
             speeds = np.stack([flight.wheel_speed(wheel) for wheel in flight.wheels], axis=1)
             wheel_momenta = ocs.spin_inertia * speeds[flight.driven_samples]
             path = wheel_momenta @ ocs.axes.axes(incidence)[:2].T
-            momenta.append(ManeuverMomentum(flight.scenario, incidence, path))
+            momenta.append(ManeuverMomentum(flight.record.scenario, incidence, path))
     if momenta or story.design.selection is not None:
         return tuple(momenta)
     for demand in story.design.requirement.demands:

@@ -27,20 +27,6 @@ from ocs_design.sizing.margins import HOOP_STRESS
 MOST_TRIANGLES = 30_000
 """Triangles of the robot: a few hundred kilobytes, and smooth without a graphics card."""
 
-_CONTENTS = {
-    "robot": "Robot and device",
-    "sizes": "Sizes and margins",
-    "limits": "Active limits",
-    "bound": "Lower bound",
-    "angles": "Incidence",
-    "drive": "Drive",
-    "maneuvers": "Maneuvers",
-    "samples": "Monte Carlo",
-    "assembly": "Assembly",
-    "record": "Provenance",
-}
-"""Sections and their short names in the table of contents."""
-
 
 def write_report(story: Story, folder: Path) -> Path:
     """Write `report.html`."""
@@ -79,12 +65,31 @@ def title_of(design: OcsDesign) -> str:
 
 def _body(story: Story) -> Iterator[Markup]:
     design = story.design
-    scenarios = tuple(dict.fromkeys(flight.scenario for flight in story.flights if flight.poses))
+    scenarios = tuple(
+        dict.fromkeys(flight.record.scenario for flight in story.flights if flight.poses)
+    )
     bodies = decimated(story.bodies, MOST_TRIANGLES)
+    shown = view(story, bodies, scenarios)
+    # Short name and content of each section, by its anchor.
+    contents = {
+        "robot": ("Robot and device", sections.robot_section(story, shown)),
+        "sizes": ("Sizes and margins", sections.sizes_section(design)),
+        "limits": ("Active limits", sections.limits_section(story)),
+        "bound": ("Lower bound", sections.bound_section(story)),
+        "angles": ("Incidence", sections.angles_section(story)),
+        "drive": ("Drive", sections.drive_section(story)),
+        "maneuvers": (
+            "Maneuvers",
+            sections.maneuvers_section(story, dict(scenario_charts(story)), scenarios),
+        ),
+        "samples": ("Monte Carlo", sections.monte_carlo_section(story)),
+        "assembly": ("Assembly", sections.assembly_section(story)),
+        "record": ("Provenance", sections.record_section(story)),
+    }
     links = (
         element("a", name, href=f"#{anchor}")
-        for anchor, name in _CONTENTS.items()
-        if anchor != "samples" or story.monte_carlo is not None
+        for anchor, (name, content) in contents.items()
+        if content
     )
     line = headline(design)
     parts = (element("strong", part.text, class_=part.tone) for part in line.parts)
@@ -103,19 +108,7 @@ def _body(story: Story) -> Iterator[Markup]:
         _tiles(design),
     )
     yield element("nav", *links, aria_label="Contents")
-    yield element(
-        "main",
-        sections.robot_section(story, view(story, bodies, scenarios)),
-        sections.sizes_section(design),
-        sections.limits_section(story),
-        sections.bound_section(story),
-        sections.angles_section(story),
-        sections.drive_section(story),
-        sections.maneuvers_section(story, dict(scenario_charts(story)), scenarios),
-        sections.monte_carlo_section(story),
-        sections.assembly_section(story),
-        sections.record_section(story),
-    )
+    yield element("main", *(content for _, content in contents.values()))
     yield json_element("design", to_json(design).decode())
     yield view_data(story, bodies, scenarios)
 

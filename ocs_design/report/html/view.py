@@ -156,10 +156,10 @@ def _flight(flight: RecordedFlight, poses: Poses, names: Sequence[str], blob: Bl
         backwards = from_axis_angle(np.array([0.0, 0.0, 1.0]), -poses.wheel_angle[:, wheel])
         attitude[:, body] = hamilton(attitude[:, body], backwards)
     return {
-        "scenario": flight.scenario,
-        "ocs": flight.ocs,
+        "scenario": flight.record.scenario,
+        "ocs": flight.record.ocs,
         # A robot on a pivot would swing through the floor.
-        "floor": not flight.on_pivot,
+        "floor": not flight.record.was_on_pivot,
         "frames": len(poses.time),
         "time": blob.add(poses.time, "f4"),
         "position": blob.add(

@@ -13,7 +13,7 @@ from wheels import paper_device
 from ocs_design.common.frames import Placement
 from ocs_design.report.bodies import ShownBody, Surface
 from ocs_design.report.html.view import Blob, encoded_scene
-from ocs_design.report.story import recorded_flights
+from ocs_design.report.story import RecordedFlight
 from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.robot.reader import read_robot
 from ocs_design.simulation.scenario import Flights, Options, run_scenarios
@@ -28,7 +28,7 @@ def flights():
     solo12 = read_robot(SOLO12)
     drop = default_maneuvers(solo12)[1]
     runs = run_scenarios(Flights(solo12, paper_device(), [drop], options=Options(pose_rate=20.0)))
-    return recorded_flights([*map(record_run, runs)], runs)
+    return [RecordedFlight(record_run(run), run.series.columns(), run.poses) for run in runs]
 
 
 def triangle_body(name):
@@ -83,7 +83,8 @@ def test_the_readout_is_the_tilt_of_the_flight(scene, flights):
 
 def test_flights_about_a_pivot_have_no_floor(flights):
     for on_pivot in (False, True):
-        pivoted = [replace(flight, on_pivot=on_pivot) for flight in flights]
+        judged = {"level": None if on_pivot else True, "stands": True}
+        pivoted = [replace(it, record=replace(it.record, **judged)) for it in flights]
         scene = encoded_scene([triangle_body("base_link")], pivoted, [], Blob())
         assert {flight["floor"] for flight in scene["flights"]} == {not on_pivot}
 
