@@ -20,6 +20,7 @@ from paired import ROBOTS
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 
+from energy import step_with_work
 from wheels import paper_device
 
 from ocs_design.common.arrays import FloatArray
@@ -71,14 +72,6 @@ class Measured:
     energy_missing: float
 
 
-@dataclass(frozen=True)
-class Work:
-    """Since the start [J]: done on the robot by all but gravity; and by its drives, all as gain."""
-
-    given: float
-    exchanged: float
-
-
 class Jumper:
     """One world, stepped from its start until it comes down."""
 
@@ -91,38 +84,20 @@ class Jumper:
         self._control = np.zeros((1, 1, self.model.nu))
         self.slid: dict[int, FloatArray] = {}
 
-    def steps(self) -> Iterator[Work]:
-        """Before each step, the derived quantities computed: what was done until then."""
-        work = exchanged = 0.0
+    def steps(self) -> Iterator[FloatArray]:
+        """Before each step, the derived quantities computed: work done until then [J], shape (2,).
+
+        That on the robot by all but gravity, and that of its drives, all counted as positive.
+        """
+        work = np.zeros(2)
         # Before touchdown no weight is added to the plan.
         bears = np.zeros(1, dtype=bool)
         for k in range(int(self.world.duration / self.model.opt.timestep)):
             self._legs.write(k, self._control, bears)
             self.data.ctrl[:] = self._control[0, 0]
             mujoco.mj_forward(self.model, self.data)
-            yield Work(work, exchanged)
-            gained = self._step()
-            work, exchanged = work + gained[0], exchanged + gained[1]
-
-    def _step(self) -> FloatArray:
-        """Advance; the work of both kinds in this step, by Simpson's rule [J], shape (2,).
-
-        The command jumps from step to step: both ends of the step count with its own.
-        """
-        model, step = self.model, self.model.opt.timestep
-        mujoco.mj_copyData(self._middle, model, self.data)
-        model.opt.timestep = 0.5 * step
-        mujoco.mj_step(model, self._middle)
-        model.opt.timestep = step
-        before = self._powers(self.data)
-        mujoco.mj_step(model, self.data)
-        return step / 6.0 * (before + 4.0 * self._powers(self._middle) + self._powers(self.data))
-
-    def _powers(self, data: mujoco.MjData) -> FloatArray:
-        """Of everything but gravity; of all drives, whichever way it goes [W], shape (2,)."""
-        mujoco.mj_forward(self.model, data)
-        given = (data.qfrc_actuator + data.qfrc_passive + data.qfrc_constraint) @ data.qvel
-        return np.array([given, np.abs(data.qfrc_actuator * data.qvel).sum()])
+            yield work
+            work = work + step_with_work(self.model, self.data, self._middle)
 
     def slide(self) -> None:
         """Add what the ground's side of each foot slides in this step, while the foot is loaded."""
@@ -147,7 +122,7 @@ def measure(jumper: Jumper) -> Measured:
     limits = model.actuator_forcerange[:, 1]
     limited = limits > 0.0
     share, flight = 0.0, []
-    for done in jumper.steps():
+    for work in jumper.steps():
         torque = np.abs(data.actuator_force[limited]) / limits[limited]
         share = max(share, np.max(torque, initial=0.0))
         if data.ncon and data.time < planned + AFTER:
@@ -157,14 +132,14 @@ def measure(jumper: Jumper) -> Measured:
             break
         mujoco.mj_subtreeVel(model, data)
         center, velocity = data.subtree_com[0], data.subtree_linvel[0]
-        flight.append((*velocity[[0, 2]], center[2], data.energy.sum() - done.given))
+        flight.append((*velocity[[0, 2]], center[2], data.energy.sum() - work[0]))
     forward, up, height, unexplained = np.array(flight).T
     return Measured(
         (forward[0], up[0]),
         height.max() - height[0],
         share,
         max(map(np.linalg.norm, jumper.slid.values())),
-        np.ptp(unexplained) / done.exchanged,
+        np.ptp(unexplained) / work[1],
     )
 
 

@@ -57,13 +57,17 @@ def energy_balance(
         for row in control[0]:
             data.ctrl[:] = row
             data.ctrl[motors] = recording.wheel_torque[k, index]
-            work += _step(model, data, middle)
+            work += step_with_work(model, data, middle)
     residual, total_work, height = np.array(rows).T
     return EnergyBalance(residual, total_work, height)
 
 
-def _step(model, data, middle) -> FloatArray:
-    """Advance by a step; integrals of `_powers` over it [J], by Simpson's rule."""
+def step_with_work(model: mujoco.MjModel, data: mujoco.MjData, middle: mujoco.MjData) -> FloatArray:
+    """Advance by a step; integrals of `_powers` over it [J], by Simpson's rule, shape (2,).
+
+    The command jumps from step to step: both ends of the step count with its own. `middle` is
+    overwritten.
+    """
     step = model.opt.timestep
     mujoco.mj_copyData(middle, model, data)
     try:

@@ -110,11 +110,9 @@ def empty_recording(
 
 
 def joined(parts: Sequence[Recording], places: Sequence[NDArray[np.intp]]) -> Recording:
-    """Several recordings as one.
+    """Several recordings with equal control steps as one.
 
-    Args:
-        parts: with equal control steps.
-        places: for each part, the indices of its worlds among all worlds.
+    `places`: for each part, the indices of its worlds among all worlds.
     """
     longest = max(parts, key=lambda part: len(part.time))
     combined = empty_recording(
@@ -224,9 +222,7 @@ class Batch:
     def run(self, threads: int, stop: Event, progress: Callable[[float], None]) -> Recording:
         """Run all worlds to their ends, once.
 
-        Args:
-            stop: set by another thread to abort; the recording is then incomplete.
-            progress: called with the share of the work that is done, 0..1.
+        If another thread sets `stop`, it is aborted, and the recording is incomplete.
         """
         data = [mujoco.MjData(self._models[0]) for _ in range(threads)]
         # Without a pool the calling thread does the work.

@@ -177,9 +177,7 @@ def fly_stopped(
 ) -> SurvivalRecord:
     """Fly every maneuver with each drive stopping at each of `STOPS` instants, and judge landings.
 
-    Args:
-        flights: as designed. detection: time until the law knows of a stop [s].
-        progress: called with the share of the work that is done, 0..1.
+    `detection`: time until the law knows of a stop [s].
     """
     device = flights.device
     flown: list[tuple[Maneuver, StoppedDrive, World]] = []

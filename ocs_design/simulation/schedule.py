@@ -105,9 +105,7 @@ class LegReferences:
     def write(self, k: int, control: FloatArray, bears_weight: NDArray[np.bool_]) -> None:
         """Put the commands of control step `k` into `control`, shape (n, hold, nu and more).
 
-        Args:
-            control: of the first n worlds.
-            bears: whether the legs of each must support its weight, shape (n,).
+        `bears_weight`: whether the legs of each of these n worlds must support it, shape (n,).
         """
         first = min(k * self._hold, self._last)
         commands = self._commands[self._row[: len(control)], first : first + self._hold]

@@ -217,10 +217,8 @@ class WorldBuilder:
     ) -> tuple[FloatArray, FloatArray]:
         """Commands that hold the nominal posture, and what is added to them to bear the weight.
 
-        Of all actuators, shape (nu,) each; the motors of the wheels are at zero.
-
-        Args:
-            data: of the robot as it stands, level.
+        Of all actuators, shape (nu,) each; the motors of the wheels are at zero. In `data` the
+        robot stands level.
         """
         joints = leg_joints(self._robot)
         drives = [model.actuator(name).id for name in joints]
