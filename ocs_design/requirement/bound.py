@@ -146,39 +146,25 @@ def spin_demands(
         total_inertia: of the robot with its device, wheels braked [kg m^2], shape (3, 3).
         incidence: of the design; a maneuver's own takes precedence [rad].
     """
-
-    def demand(
-        source: str,
-        momentum: FloatArray,
-        own_incidence: float,
-        torque: FloatArray | None = None,
-        initial_speed: float = 0.0,
-    ) -> SpinDemand:
-        """Demand of a momentum [N m s] and, where a time is set, a least torque [N m]."""
-        speed_left = requirement.wheel_speed_max - initial_speed
-        spin_inertia = (
-            per_wheel(momentum, own_incidence) / speed_left if speed_left > 0.0 else float("inf")
-        )
-        per_motor = 0.0 if torque is None else per_wheel(torque, own_incidence)
-        return SpinDemand(source, own_incidence, momentum, spin_inertia, per_motor)
-
     total, demands = TiltInertia.of(total_inertia), []
     for maneuver in requirement.maneuvers:
-        own_incidence = incidence if maneuver.incidence is None else maneuver.incidence
-        reached = total.within_reach(authority(own_incidence), maneuver.tilt_per_drift)
-        momentum = maneuver.momentum(reached)
-        torque = maneuver.least_torque(reached)
-        slew = maneuver.slew(reached)
+        own = incidence if maneuver.incidence is None else maneuver.incidence
+        reached = total.within_reach(authority(own), maneuver.tilt_per_drift)
+        momentum, slew = maneuver.momentum(reached), maneuver.slew(reached)
         _, pitch = slew.swept if slew.swept.any() else slew.momentum
         # Both wheels of a pair pitch the trunk the same way, but roll it in opposite ways.
         initial_speed = (
             float(np.sign(pitch)) * slew.initial_speed if pitch else abs(slew.initial_speed)
         )
-        demands.append(demand(maneuver.name, momentum, own_incidence, torque, initial_speed))
+        speed_left = requirement.wheel_speed_max - initial_speed
+        spin_inertia = per_wheel(momentum, own) / speed_left if speed_left > 0.0 else float("inf")
+        torque = per_wheel(maneuver.least_torque(reached), own)
+        demands.append(SpinDemand(maneuver.name, own, momentum, spin_inertia, torque))
     if requirement.rate_change is not None:
         momenta = rate_momenta(total, requirement.rate_change)
         for axis, momentum in zip(AXES, momenta, strict=True):
-            demands.append(demand(f"rate change, {axis}", momentum, incidence))
+            spin_inertia = per_wheel(momentum, incidence) / requirement.wheel_speed_max
+            demands.append(SpinDemand(f"rate change, {axis}", incidence, momentum, spin_inertia))
     return tuple(demands)
 
 

@@ -1,7 +1,8 @@
 """Maneuvers as data: what the device must do, and how its validation by simulation starts.
 
 They are the `[[maneuver]]` tables of a specification. This module has what they have in common;
-their kinds are in `pushes`, `turns` and `pivoted`, listed in `kinds`.
+their kinds are in `pushes`, `turns` and `pivoted`, listed in `kinds`. A field that is a key has its
+dimension and its meaning in its annotation; values are in SI, and vectors in B.
 """
 
 from abc import ABC, abstractmethod

@@ -107,12 +107,9 @@ class Pivoted(Maneuver):
     Upright means that the centre of mass is above the pivot. All joints of the robot are locked.
 
     Attributes:
-        pivot: in B [m], shape (3,).
         edge: direction of the edge that it turns about, level in B, of any length; zeros: a point.
         roll, pitch: tilt at the start from upright, one rotation about the axis (roll, pitch, 0) of
             a B that stands upright [rad].
-        duration: until it is upright and at rest [s].
-        wheel_speed: of all wheels at the start [rad/s].
         end: see `End`; not `at rest`, as a robot that is not upright cannot stay at rest.
         stretch: factor on the longest time of the estimate; a larger one needs less torque and more
             momentum (`StandUp.with_less_torque`).
@@ -388,12 +385,7 @@ _DIRECTION_TOLERANCE = 1e-6
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Balance(Pivoted):
-    """A tilt, a rate or an impulse, not known in advance, that feedback alone corrects.
-
-    Attributes:
-        rate: at the start, in B [rad/s], shape (3,).
-        impulse: of a force at that time, in B [N s], shape (3,). point: where it hits, in B [m].
-    """
+    """A tilt, a rate or an impulse, not known in advance, that feedback alone corrects."""
 
     rate: Annotated[Rate, "rate of the trunk at the start, about its x, y and z"] = (0.0, 0.0, 0.0)
     impulse: Annotated[Impulse, "impulse of a force at the start"] = (0.0, 0.0, 0.0)
@@ -442,11 +434,7 @@ class Balance(Pivoted):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class StandUp(Pivoted):
-    """A planned climb from rest in a tilt to upright.
-
-    Attributes:
-        actuation: see `Actuation`.
-    """
+    """A planned climb from rest in a tilt to upright, by motors or a brake (`Actuation`)."""
 
     actuation: Annotated[
         str,

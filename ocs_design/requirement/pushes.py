@@ -102,10 +102,6 @@ class Disturbance(Unforeseen):
     """A jump during which a torque hits the trunk (paper, section 4, first test).
 
     Attributes:
-        takeoff_velocity: forward and upward at lift-off [m/s].
-        torque: on the trunk in B [N m], shape (3,).
-        onset: time from lift-off to the torque [s].
-        duration: of the torque [s].
         velocity_change: of the centre of mass by a force of the same duration, in B [m/s], shape
             (3,); the torque is then the one about the centre of mass.
         impulse: of that force, if torque and change of velocity follow from it (`on`), in B [N s],
@@ -231,12 +227,6 @@ class Shove(Unforeseen):
     """A torque on the trunk of a standing or trotting robot, to be absorbed (paper, section 5).
 
     The legs are not relied on: the device is sized to absorb it alone.
-
-    Attributes:
-        torque: on the trunk in B [N m], shape (3,).
-        duration: of the torque [s].
-        settling: from its end until the trunk must be level and at rest again [s].
-        stride: of a trot on the spot [s]; 0: the robot stands.
     """
 
     torque: Torque

@@ -62,11 +62,7 @@ class Reorientation(Maneuver):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Drop(Reorientation):
-    """A fall from rest with the trunk tilted (paper, section 4, second test).
-
-    Attributes:
-        height: of the trunk frame's origin above the ground [m]. roll, pitch: at release [rad].
-    """
+    """A fall from rest with the trunk tilted (paper, section 4, second test)."""
 
     height: Annotated[_Height, "height of the trunk's frame above the ground"]
     roll: Annotated[Tilt, "roll at release; positive: right side down"] = 0.0
@@ -179,11 +175,7 @@ class TimedTurn(Reorientation):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Flip(TimedTurn):
-    """A full turn, or part of one, in a vertical jump (paper, section 4, third test).
-
-    Attributes:
-        angle: of pitch [rad]; a back-flip is negative about y (left).
-    """
+    """A full turn, or part of one, in a vertical jump (paper, section 4, third test)."""
 
     jump_height: _JumpHeight
     angle: Annotated[_Turn, "turn in pitch; negative: a back-flip"]
@@ -262,11 +254,6 @@ class TurnTo(TimedTurn):
     """A turn of the trunk in a vertical jump, from level to any attitude, heading included.
 
     Attributes:
-        roll, pitch, yaw: of the attitude at the end, reached from level by yaw, then pitch, then
-            roll [rad].
-        rate: of the trunk at lift-off, in B [rad/s], shape (3,).
-        wheel_speed: of all wheels at lift-off [rad/s].
-        end: see `End`.
         direct: whether the wheels can act about the vertical, so that no tilt loop is needed.
     """
 

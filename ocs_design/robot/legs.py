@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
 
@@ -19,19 +20,9 @@ _BALL_SHARE = 0.25
 """Largest radius of a foot, as a share of the shank."""
 
 
-@dataclass(frozen=True, eq=False)
-class LimbEnd:
-    """The end of a limb.
-
-    Attributes:
-        link: that touches the ground.
-        point: in the last body's frame [m], shape (3,).
-        radius: of the ball or wheel around `point`; 0 for a sole or a bare point [m].
-    """
-
-    link: str
-    point: FloatArray
-    radius: float
+LimbEnd: TypeAlias = tuple[str, FloatArray, float]
+"""The link at the end of a limb that touches the ground; the point that does, in the last body's
+frame [m], shape (3,); and the radius of a ball or wheel around it, 0 for a sole or a bare point."""
 
 
 def find_foot(chain: Chain, up: FloatArray) -> LimbEnd:
@@ -51,7 +42,7 @@ def find_foot(chain: Chain, up: FloatArray) -> LimbEnd:
     if body.joint is not None and is_wheel(body):
         axis, com = body.joint.axis, body.mass_properties.com
         reaches = [extent_of(solid_shapes(body), side) or 0.0 for side in _across(axis)]
-        return LimbEnd(body.name, axis * (axis @ com), max(reaches))
+        return body.name, axis * (axis @ com), max(reaches)
     if len(chain.driven) >= ANKLED_JOINTS:
         zero = chain.pose(np.zeros(len(chain.driven)))
         return _lowest_surface(body, -zero.end.rotation.T @ up)
@@ -62,7 +53,7 @@ def find_foot(chain: Chain, up: FloatArray) -> LimbEnd:
     if balls and lowest is not None:
         ball = max(balls, key=lambda shape: float(down @ shape.position) + shape.size[0])
         if down @ ball.position + ball.size[0] > 0.95 * lowest:
-            return LimbEnd(ball.link, ball.position, ball.size[0])
+            return ball.link, ball.position, ball.size[0]
     link = max(body.links, key=lambda name: float(down @ body.links[name].position))
     origin = body.links[link].position
     length = float(np.linalg.norm(origin))
@@ -70,7 +61,7 @@ def find_foot(chain: Chain, up: FloatArray) -> LimbEnd:
         return _lowest_surface(body, down)
     # Along the shank, not straight down: a mesh counts as a box, which is exact along its sides.
     beyond = (extent_of(solid_shapes(body), origin / length) or length) - length
-    return LimbEnd(link, origin, min(max(beyond, 0.0), _BALL_SHARE * length))
+    return link, origin, min(max(beyond, 0.0), _BALL_SHARE * length)
 
 
 def farthest_frame(body: Body) -> FloatArray:
@@ -110,7 +101,7 @@ def _lowest_surface(body: Body, down: FloatArray) -> LimbEnd:
     lowest = extent_of(shapes, down)
     if lowest is None:
         link = max(body.links, key=lambda name: float(down @ body.links[name].position))
-        return LimbEnd(link, body.links[link].position, 0.0)
+        return link, body.links[link].position, 0.0
     # For huge shapes, subtracting a centimetre does not change the number.
     reaches = ((shape, extent(shape, down)) for shape in shapes)
     touching = [shape for shape, reach in reaches if reach is not None and reach >= lowest - 0.01]
@@ -121,7 +112,7 @@ def _lowest_surface(body: Body, down: FloatArray) -> LimbEnd:
             middle = middle + 0.5 * (ahead - behind) * side
     # A sole of several links, such as a sensor in each corner, is named after its body.
     links = {shape.link for shape in touching}
-    return LimbEnd(links.pop() if len(links) == 1 else body.name, middle, 0.0)
+    return links.pop() if len(links) == 1 else body.name, middle, 0.0
 
 
 PARALLEL = 0.97
@@ -206,14 +197,14 @@ def leg_of(
         placements: of all bodies in the root's frame.
     """
     chain = chain_of(tree, base, last, placements)
-    foot = find_foot(chain, up)
+    link, foot, radius = find_foot(chain, up)
     return Leg(
-        name=foot.link,
+        name=link,
         body=last,
         joints=chain.names,
-        foot=frozen(foot.point),
-        foot_radius=foot.radius,
-        length=leg_plane(chain, foot.point, up).length,
+        foot=frozen(foot),
+        foot_radius=radius,
+        length=leg_plane(chain, foot, up).length,
         base=base,
         up=frozen(placements[base].rotation.T @ up),
     )

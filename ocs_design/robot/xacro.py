@@ -106,7 +106,7 @@ _REFUSED_FUNCTIONS = ("vars", "type")
 
 _SECRET = ("TOKEN", "SECRET", "PASSW", "CREDENTIAL", "KEY", "AUTH")
 
-# Importing Python's own modules needs the first of these, includes with wildcards the last.
+# Importing Python's own modules needs the first of these, includes with wildcards `glob.glob`.
 _HARMLESS_EVENTS = {
     "import",
     "marshal.loads",
@@ -115,8 +115,8 @@ _HARMLESS_EVENTS = {
     "os.listdir",
     "os.scandir",
     "glob.glob",
+    "builtins.id",
 }
-_HARMLESS_EVENTS |= {"builtins.id"}
 
 
 def expand_job(*, content: str, file: str, packages: Mapping[str, str], seconds: float) -> None:
