@@ -20,7 +20,8 @@ class Key:
         summary: what it is, for help and messages.
         option: its name on the command line; empty: the key's own, with dashes.
         why: when to set it, or what it changes, in one line.
-        default: the default in words; empty: its value says it all.
+        default: the default in words; empty: its value says it all, or an example is given of what
+            is not required by default.
         assumed: default value for any robot; None: it depends on the robot, or is found.
         example: a value as written in TOML, for a key that has no default to show.
     """
@@ -45,6 +46,7 @@ def keyed(
     example: str = "",
 ) -> T | None:
     """A field of a section that is a key, None where it is not specified (`Key`)."""
+    default = default or ("not required" if example else "")
     key = Key(value, summary, option, why, default, assumed, example)
     return field(default=None, metadata={"key": key})
 

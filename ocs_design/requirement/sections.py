@@ -115,7 +115,6 @@ class RequirementSection:
         values.TRUNK_RATE,
         "change of the trunk's rate",
         why="The paper's requirement, about either axis, in addition to your own maneuvers.",
-        default="not required",
         example='"2 rad/s"',
     )
     wheel_speed_max: float | None = keyed(
@@ -142,70 +141,60 @@ class RequirementSection:
         values.Several(values.HEIGHT),
         "height of a jump, of the centre of mass",
         why="Alone: with the push of the paper's first test; else the jump of each kick and flip.",
-        default="not required",
         example='"0.4 m"',
     )
     kick: tuple[phrases.Kick, ...] | None = keyed(
         values.Several(phrases.kick_text),
         "impulse on the trunk during a jump",
         why="Without `along`, it comes from the side.",
-        default="not required",
         example='"12 N s at 0.1,0,0.2 along 0,1,0"',
     )
     fall: tuple[float, ...] | None = keyed(
         values.Several(values.HEIGHT),
         "height of the trunk at the start of a fall",
         why="The trunk is released at rest, with its frame this high above the ground.",
-        default="not required",
         example='"1 m"',
     )
     tilt: tuple[phrases.Tilt, ...] | None = keyed(
         values.Several(phrases.tilt_text),
         "tilt of the trunk at the start of a fall",
         why="For each fall; positive pitch is nose down, positive roll to the right.",
-        default="not required",
         example='"20 deg"',
     )
     flip: tuple[float, ...] | None = keyed(
         values.Several(phrases.FLIP),
         "turn in pitch during a jump",
         why="back, forward, or an angle of whole turns; back-flips are negative.",
-        default="not required",
         example='"back"',
     )
     turn: tuple[phrases.About, ...] | None = keyed(
         values.Several(phrases.TURN_TEXT),
         "turn to any attitude during a jump",
         why="To an attitude, heading included, within a time.",
-        default="not required",
         example='"yaw 90 deg in 2.9 s"',
     )
     catch: tuple[phrases.About, ...] | None = keyed(
         values.Several(phrases.CATCH_TEXT),
         "rates at lift-off that the wheels must stop",
         why="Rates of the trunk at lift-off; it must be level within a time.",
-        default="not required",
         example='"roll 20 deg/s pitch 45 deg/s in 0.5 s"',
     )
     pivot: phrases.Pivot | None = keyed(
         phrases.pivot_text,
         "point or edge for balance and stand_up",
         why="In the trunk's frame, below the centre of mass.",
-        default="not required",
         example='"0,0,-0.2 along left"',
     )
     balance: tuple[phrases.About | phrases.Kick, ...] | None = keyed(
         values.Several(phrases.upset_text),
         "tilt or impulse to recover from on the pivot",
         why="The robot must be upright again: after a tilt from balance, or an impulse.",
-        default="not required",
         example='"pitch 5 deg in 1 s"',
     )
     stand_up: tuple[phrases.Climb, ...] | None = keyed(
         values.Several(phrases.climb_text),
         "tilt to stand up from on the pivot",
         why="From a tilt to upright on the pivot, by the motors or by braking the wheels.",
-        default="not required",
         example='"pitch 45 deg by brake"',
     )
     maneuvers: str | None = keyed(

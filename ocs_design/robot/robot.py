@@ -148,7 +148,7 @@ class Recognition:
     Attributes:
         reading: with which the program continues.
         likely: readings to choose from if it is not sure, the likeliest first.
-        stated: what the user named: nothing, `trunk`, `legs` or both.
+        specified: what the user named: nothing, `trunk`, `legs` or both.
     """
 
     reading: Reading
