@@ -6,7 +6,7 @@ from math import acos, atan2, ceil, cos, hypot, sin, sqrt
 import numpy as np
 
 from ocs_design.actuation.motor import DIRECT
-from ocs_design.common.frames import BACKWARDS
+from ocs_design.common.frames import BACKWARDS, Placement
 from ocs_design.device.device import Device, Module
 from ocs_design.parts.carrier_plate import CarrierPlate
 from ocs_design.parts.dog_bone import directions
@@ -194,12 +194,7 @@ def plate_solids(plate: CarrierPlate | None) -> tuple[Drum, ...]:
         for x, y in directions(plate.arms)
     ]
     sleeves = [
-        Drum(
-            middle + place.position - length / 2.0 * place.rotation[:, 2],
-            place.rotation[:, 2],
-            plate.sleeve_radius,
-            length,
-        )
+        _around_screw(plate, place, -length / 2.0, plate.sleeve_radius, length)
         for place, length in zip(plate.screw_places, plate.sleeves, strict=True)
         if length > 0.0
     ]
@@ -244,14 +239,16 @@ def plate_heads(plate: CarrierPlate | None) -> tuple[Drum, ...]:
     """Heads of the screws that hold the plate on the trunk."""
     if plate is None:
         return ()
-    screw, middle = plate.screw, np.array(plate.position)
-    off = plate.clamped + screw.head_height / 2.0
+    radius, height = plate.screw.head_diameter / 2.0, plate.screw.head_height
     return tuple(
-        Drum(
-            middle + place.position + off * place.rotation[:, 2],
-            place.rotation[:, 2],
-            screw.head_diameter / 2.0,
-            screw.head_height,
-        )
+        _around_screw(plate, place, plate.clamped + height / 2.0, radius, height)
         for place in plate.screw_places
     )
+
+
+def _around_screw(
+    plate: CarrierPlate, place: Placement, middle: float, radius: float, length: float
+) -> Drum:
+    """Cylinder about a screw in the trunk, with its middle so far along the screw [m]."""
+    axis = place.rotation[:, 2]
+    return Drum(np.array(plate.position) + place.position + middle * axis, axis, radius, length)

@@ -109,20 +109,16 @@ def print_solution(console: Console, design: OcsDesign) -> None:
         print_joints(console, design.robot)
     sizing, chosen = design.sizing, design.selection is not None
     heading(console, "Solution")
-    facts(
-        console,
-        [
-            ("status", sizing.status),
-            ("method", sizing.method),
-            ("objective", f"{sizing.objective:.6g} kg, {'the device' if chosen else 'one rim'}"),
-            *(() if chosen else (("relative duality gap", f"{sizing.gap:.1e}"),)),
-            ("fixed point", f"residual {sizing.residual:.1e} after {sizing.iterations} iterations"),
-            *(
-                (f"price of {name}", limits.rim_price(design, name))
-                for name in sizing.shadow_prices
-            ),
-        ],
+    rows = [("status", sizing.status), ("method", sizing.method)]
+    rows.append(
+        ("objective", f"{sizing.objective:.6g} kg, {'the device' if chosen else 'one rim'}")
     )
+    if not chosen:
+        rows.append(("relative duality gap", f"{sizing.gap:.1e}"))
+    steps = f"residual {sizing.residual:.1e} after {sizing.iterations} iterations"
+    rows.append(("fixed point", steps))
+    rows += [(f"price of {name}", limits.rim_price(design, name)) for name in sizing.shadow_prices]
+    facts(console, rows)
 
 
 def print_selection(
