@@ -14,12 +14,13 @@ import numpy as np
 from ocs_design.common.arrays import FloatArray
 from ocs_design.jumping.legged_body import JumpingLeg, LeggedBody
 from ocs_design.robot.mass import MassProperties
+from ocs_design.robot.tree import JointKind
 
 POSE = 6
 """Number of trunk coordinates, which precede those of the joints."""
 
 _SLOW = 0.1
-"""Speed over which dry friction changes sign [rad/s], since a step has no derivative."""
+"""Speed over which dry friction changes sign [rad/s or m/s], since a step has no derivative."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,7 +66,7 @@ class FloatingBase:
     Attributes:
         y, v, a: pose and joints, shape (6 + n, 1). f: of the ground on each foot, in the world,
             shape (3 legs, 1).
-        torque: of the joints [N m], shape (n, 1).
+        torque: of the joints [N m or N], shape (n, 1).
         imbalance: residual force and moment on the trunk about B's origin, in B, shape (6, 1).
         momentum: of the whole robot in the world [kg m/s], shape (3, 1).
         spin: angular momentum about the centre of mass, in B [kg m^2/s], shape (3, 1).
@@ -168,6 +169,16 @@ class _Motion:
             self.acceleration,
         )
 
+    def slid(self, axis: ca.SX, speed: ca.SX, acceleration: ca.SX) -> "_Motion":
+        """Motion of a frame that a slide moves against this one, at its present position."""
+        along = axis * speed
+        return _Motion(
+            self.rate,
+            self.angular_acceleration,
+            self.velocity + along,
+            self.acceleration + axis * acceleration + 2.0 * ca.cross(self.rate, along),
+        )
+
 
 @dataclass(frozen=True, eq=False)
 class _Wrench:
@@ -190,7 +201,7 @@ class _LegState:
     """State of a leg on a moving trunk.
 
     Attributes:
-        torque: of its joints, friction and armature included [N m], shape (n, 1).
+        torque: of its joints, friction and armature included [N m or N], shape (n, 1).
         load: wrench from its inertia and the ground that the trunk must balance, in B [N, N m].
         momentum: in B [kg m/s, kg m^2/s]. mass_moment: mass times centre of mass in B [kg m].
         foot: centre of the foot's ball in B [m]. shank: rotation of the last body in B.
@@ -265,7 +276,9 @@ def _leg_state(
         mass_moment = mass_moment + properties.mass * (
             link.origin + link.placement @ properties.com
         )
-        torques.insert(0, ca.dot(_constant(joint.axis), outboard.moment))
+        slides = joint.kind is JointKind.PRISMATIC
+        carried_load = outboard.force if slides else outboard.moment
+        torques.insert(0, ca.dot(_constant(joint.axis), carried_load))
         outboard = outboard.in_parent(link.rotation, link.offset)
         momentum = momentum.in_parent(link.rotation, link.offset)
     # Torque that the drives lose in the joints themselves.
@@ -301,9 +314,14 @@ def _links(leg: JumpingLeg, base: _Motion, joints: tuple[ca.SX, ca.SX, ca.SX]) -
     for i, (body, joint) in enumerate(zip(leg.chain.bodies, leg.chain.joints, strict=True)):
         offset = offset + rotation @ _constant(body.placement.position)
         rotation = rotation @ _constant(body.placement.rotation)
-        rotation = rotation @ _turn(joint.axis, position[i])
+        axis, slides = _constant(joint.axis), joint.kind is JointKind.PRISMATIC
+        if slides:
+            offset = offset + rotation @ axis * position[i]
+        else:
+            rotation = rotation @ _turn(joint.axis, position[i])
         carried = motion.carried(offset).seen_from(rotation)
-        motion = carried.turned(_constant(joint.axis), velocity[i], acceleration[i])
+        moved = carried.slid if slides else carried.turned
+        motion = moved(axis, velocity[i], acceleration[i])
         origin, placement = origin + placement @ offset, placement @ rotation
         links.append(_Link(rotation, offset, placement, origin, motion))
         rotation, offset = ca.SX.eye(3), ca.SX.zeros(3)

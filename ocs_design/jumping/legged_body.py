@@ -11,7 +11,7 @@ from ocs_design.robot.leg_geometry import leg_geometries, up_axis
 from ocs_design.robot.legs import is_wheel
 from ocs_design.robot.mass import MassProperties, combine
 from ocs_design.robot.robot import Robot
-from ocs_design.robot.tree import Joint, JointKind
+from ocs_design.robot.tree import Joint
 
 _FEWEST_JOINTS = 3
 """Fewest joints with which a leg keeps its foot in place while the trunk moves in all six
@@ -47,7 +47,7 @@ class LeggedBody:
     Attributes:
         trunk: mass properties of everything outside the legs, in B.
         joints: of all legs, in their order.
-        posture: of those joints in the nominal stance [rad], shape (n,).
+        posture: of those joints in the nominal stance [rad or m], shape (n,).
         height: of B's origin over the ground in the nominal stance [m].
     """
 
@@ -128,8 +128,6 @@ def obstacle_to_jumping(robot: Robot) -> str:
             obstacle = f"{leg} ends in a wheel"
         elif geometry.plane.flat:
             obstacle = f"{leg} stands on a sole, not on a point"
-        elif any(joint.kind is not JointKind.REVOLUTE for joint in joints):
-            obstacle = f"{leg} has a joint that slides"
         elif any(joint.mimic is not None for joint in joints):
             obstacle = f"{leg} has coupled joints"
         elif len(joints) < _FEWEST_JOINTS:

@@ -110,7 +110,7 @@ class Node:
         blocks: all constraints except that of `end`.
         end: dimensionless velocity of the centre of mass and angular momentum, which the last node
             has to reach, shape (6, 1).
-        torque: of the joints [N m], shape (n, 1).
+        torque: of the joints [N m or N], shape (n, 1).
         layout: of the unknowns.
     """
 

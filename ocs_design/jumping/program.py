@@ -45,7 +45,7 @@ class PushOffSolution:
 
     Attributes:
         nodes: unknowns, shape (size, nodes).
-        torque: of the joints [N m], shape (n, nodes).
+        torque: of the joints [N m or N], shape (n, nodes).
         excess: share by which each `SoftLimit` had to be exceeded, shape (3,).
         x, on_bounds, on_rows: the whole solution and its multipliers, to start a similar search.
         solved: whether it is a local optimum.

@@ -22,6 +22,7 @@ from ocs_design.jumping.node import (
 from ocs_design.jumping.program import Program, PushOffSolution
 from ocs_design.robot.mass import MassProperties
 from ocs_design.robot.stance import lifted
+from ocs_design.robot.tree import JointKind
 
 _CROUCH = 0.25
 """Depth of the crouch at the start of the search, over the leg's length."""
@@ -46,7 +47,7 @@ class PushOff:
     Attributes:
         time: of the nodes [s], shape (k,).
         y: trunk and joints [m, rad], shape (k, 6 + n); v and a: their derivatives.
-        torque: of the joints [N m], shape (k, n).
+        torque: of the joints [N m or N], shape (k, n).
         force: of the ground on each foot, in the world [N], shape (k, legs, 3).
         forbidden: limits that forbid it, as a sentence; empty if none does.
         answer: solution of the program, from which to start the search for a similar push-off.
@@ -196,9 +197,10 @@ def _exceeded_limits(body: LeggedBody, layout: NodeLayout, solution: PushOffSolu
     """Limits that the push-off exceeds, and by how much, as text; empty if none."""
     duration, sentences = solution.nodes[layout.duration, -1], []
     speed = solution.nodes[layout.v][-layout.joints :] / duration
-    for limit, quantity, name, unit, values in (
-        (SoftLimit.TORQUE, "torque", "effort", "N m", solution.torque),
-        (SoftLimit.SPEED, "speed", "velocity", "rad/s", speed),
+    # Units for hinges and for slides.
+    for limit, quantity, name, units, values in (
+        (SoftLimit.TORQUE, "torque", "effort", ("N m", "N"), solution.torque),
+        (SoftLimit.SPEED, "speed", "velocity", ("rad/s", "m/s"), speed),
     ):
         if solution.excess[limit] <= _LIMIT_TOLERANCE:
             continue
@@ -206,11 +208,11 @@ def _exceeded_limits(body: LeggedBody, layout: NodeLayout, solution: PushOffSolu
         # The joint that needs the largest share of its limit, and when; the last of equal ones.
         share = np.abs(values) / limits[:, None]
         row, instant = np.argwhere(share >= (1.0 - _LIMIT_TOLERANCE) * share.max())[-1]
-        time = duration * float(SHARES[instant])
+        joint, time = body.joints[row], duration * float(SHARES[instant])
+        unit = units[joint.kind is JointKind.PRISMATIC]
         sentences.append(
-            f"the {quantity} of joint '{body.joints[row].name}' would be "
-            f"{abs(values[row, instant]):.3g} {unit} at {time:.3g} s, more than its "
-            f"{limits[row]:.3g} {unit}"
+            f"the {quantity} of joint '{joint.name}' would be {abs(values[row, instant]):.3g} "
+            f"{unit} at {time:.3g} s, more than its {limits[row]:.3g} {unit}"
         )
     if solution.excess[SoftLimit.FRICTION] > _LIMIT_TOLERANCE:
         sentences.append(f"the feet would need a coefficient of friction above {FRICTION}")

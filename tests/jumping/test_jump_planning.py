@@ -14,7 +14,6 @@ from ocs_design.jumping.node import FRICTION
 from ocs_design.jumping.planning import JumpPlanner, plan_jumps
 from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.robot.reader import read_robot
-from ocs_design.robot.tree import JointKind
 
 JUMP = Jump(0.4, 2.0, 9.81)
 
@@ -135,15 +134,3 @@ def test_robots_without_a_plan_start_in_flight_with_a_reason(name, words):
     plans = plan_jumps(robot, driven_device(), [default_maneuvers(robot)[0]])
     assert plans["disturbance"].carrying.legs is None
     assert plans["disturbance"].bare.note.startswith("starts at lift-off: ")
-
-
-def test_legs_that_slide_do_not_push_off(solo12):
-    """Only hinges are in the equations of motion."""
-    bodies = tuple(
-        replace(body, joint=replace(body.joint, kind=JointKind.PRISMATIC))
-        if body.joint is not None and body.joint.name.endswith("KFE")
-        else body
-        for body in solo12.tree.bodies
-    )
-    sliding = replace(solo12, tree=replace(solo12.tree, bodies=bodies))
-    assert "has a joint that slides" in obstacle_to_jumping(sliding)
