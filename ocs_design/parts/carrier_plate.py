@@ -345,9 +345,12 @@ class CarrierPlate:
         """The trunk's screws, grouped by length; each group has its longest sleeve."""
         longest = dict(sorted(zip(self.screw_lengths, self.gaps, strict=True)))
         joint = BoltedJoint.PLATE if self.mast is None else BoltedJoint.MAST
-        held, several = (joint, self.thread_depth), len(longest) > 1
-        groups = ((self.screw_lengths.count(at), self.clamped + gap) for at, gap in longest.items())
-        return tuple(Fastening(self.screw, *of, *held, several_lengths=several) for of in groups)
+        several, groups = len(longest) > 1, []
+        for length, sleeve in longest.items():
+            count, through = self.screw_lengths.count(length), self.clamped + sleeve
+            group = Fastening(self.screw, count, through, joint, self.thread_depth)
+            groups.append(replace(group, several_lengths=several))
+        return tuple(groups)
 
     def net_width(self, across: FloatArray) -> FloatArray:
         """Width of one plate's sections at some y, minus screw holes and windows [m]."""

@@ -383,7 +383,8 @@ def hub_of(
     radius = max(wide, bore + HUB_WALL) if rotor is None else rotor.reach + HUB_WALL
     bolts = (0, 0.0, 0.0) if rotor is None else (rotor.bolts, rotor.radius, rotor.hole_radius)
     head = 0.0 if rotor is None else screw(rotor.thread).head_height
-    return Hub(radius, hub_height(mounting), bore, *bolts, chamfer, head, web_thickness, lightening)
+    hub = Hub(radius, hub_height(mounting), bore, *bolts, chamfer=chamfer, bolt_head=head)
+    return replace(hub, web_thickness=web_thickness, lightening=lightening)
 
 
 def rim_height_min(hub: Hub) -> float:

@@ -327,6 +327,7 @@ class Carrier:
         mass = moments.mass
         along, up = (moments.y / mass, moments.z / mass) if mass else (0.0, 0.0)
         xx, yy, zz = moments.xx, moments.yy - mass * along**2, moments.zz - mass * up**2
+        # Axial, transverse and vertical, and their product.
         inertias = xx + zz, yy + zz, xx + yy, mass * along * up - moments.yz
         return cls(*map(float, (mass, *inertias, along, up)))
 
