@@ -25,6 +25,7 @@ from ocs_design.report.limits import (
 )
 from ocs_design.report.table import cell_text
 from ocs_design.report.text.layout import items, show
+from ocs_design.report.text.size import print_solution
 from ocs_design.sizing import lightest_module
 
 MARGINS = (
@@ -131,3 +132,13 @@ def test_alternatives_are_sorted_by_their_savings():
         "more time", "no device", "any material"
     ]  # fmt: skip
     assert useless_changes_note(with_changes) == "These save nothing: nothing."
+
+
+def test_a_price_says_that_it_is_of_one_module():
+    """Below an objective of the whole device, 22 g per mm read like half of what a mm saves."""
+    original = design()
+    sizing = replace(original.sizing, binding=("r_max",), shadow_prices={"r_max": -20.0})
+    console = Console(file=io.StringIO(), width=80)
+    print_solution(console, replace(original, sizing=sizing))
+    assert original.selection is not None
+    assert "-20.00 g per mm more, each module" in console.file.getvalue()

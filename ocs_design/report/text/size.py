@@ -108,6 +108,8 @@ def print_solution(console: Console, design: OcsDesign) -> None:
     if design.robot.posture:
         print_joints(console, design.robot)
     sizing, chosen = design.sizing, design.selection is not None
+    # The objective is the whole device's mass, a price that of one of its modules.
+    of_what = ", each module" if chosen else ""
     heading(console, "Solution")
     rows = [("status", sizing.status), ("method", sizing.method)]
     rows.append(
@@ -117,7 +119,8 @@ def print_solution(console: Console, design: OcsDesign) -> None:
         rows.append(("relative duality gap", f"{sizing.gap:.1e}"))
     steps = f"residual {sizing.residual:.1e} after {sizing.iterations} iterations"
     rows.append(("fixed point", steps))
-    rows += [(f"price of {name}", limits.rim_price(design, name)) for name in sizing.shadow_prices]
+    prices = ((name, limits.rim_price(design, name)) for name in sizing.shadow_prices)
+    rows += [(f"price of {name}", f"{price}{of_what}") for name, price in prices]
     facts(console, rows)
 
 
