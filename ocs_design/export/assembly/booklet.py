@@ -343,10 +343,15 @@ def screw_rows(assembly: Assembly) -> Iterator[ScrewRow]:
         if (fastening := piece.fastening) is not None:
             tight, number = assembly.screws[fastening], assembly.numbers[fastening]
             diameters = tight.engagement / fastening.screw.diameter
-            depth = f"{1e3 * tight.engagement:.1f} mm ({diameters:.1f} d)"
-            what, torque = f"{fastening.purpose}{tight.with_washers}", significant(tight.torque, 2)
-            row = _count(assembly, piece), fastening.designation, what, depth, f"{torque} N m"
-            yield ScrewRow(number, *row, tight.rule)
+            yield ScrewRow(
+                number=number,
+                quantity=_count(assembly, piece),
+                designation=fastening.designation,
+                purpose=f"{fastening.purpose}{tight.with_washers}",
+                engagement=f"{1e3 * tight.engagement:.1f} mm ({diameters:.1f} d)",
+                torque=f"{significant(tight.torque, 2)} N m",
+                rule=tight.rule,
+            )
 
 
 def _count(assembly: Assembly, piece: Piece) -> int:

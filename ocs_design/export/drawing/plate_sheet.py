@@ -71,26 +71,40 @@ def plate_sheets(device: Device, robot: str, refused: str = "") -> list[list[Ite
     plate = device.plate
     if plate is None:
         return []
-    drawn = []
     engaged = max(foot_screws(device, module).engagement for module in device.modules)
+    drawn = []
     for indices in plate.kinds:
         sample = plate.single_plates[indices[0]]
-        figure = "Thickness", f"{in_mm(plate.thickness)} (EN 485-4)"
-        figures = plate_part(sample).mass(), figure, "as rolled, edges Ra 6.3 (ISO 21920)"
         middles = [plate.single_plates[at].position[:2] for at in indices]
-        notes = _plate_notes(sample, middles, engaged)
-        drawn.append((_title(plate, indices), _top_view(sample), figures, notes))
+        scale, view = _top_view(sample)
+        entries = Entries(
+            title=_title(plate, indices),
+            robot=robot,
+            scale=scale,
+            material=plate.material,
+            mass=plate_part(sample).mass(),
+            figure=("Thickness", f"{in_mm(plate.thickness)} (EN 485-4)"),
+            texture="as rolled, edges Ra 6.3 (ISO 21920)",
+            identity=device_hash(device),
+        )
+        drawn.append((view, _plate_notes(sample, middles, engaged), entries))
     if (mast := plate.mast) is not None:
-        figure = "Square tube", f"{in_mm(mast.side)} x {in_mm(mast.wall)} (EN 755-8)"
-        figures = mast_part(plate, mast).mass(), figure, "as drawn (extruded)"
-        view, notes = _mast_views(plate, mast), _mast_notes(plate, mast)
-        drawn.append(("Mast behind the trunk", view, figures, notes))
-    sheets, identity = [], device_hash(device)
-    for number, (title, (scale, items), figures, notes) in enumerate(drawn, start=1):
-        place = f"{number} / {len(drawn)}"
-        entries = Entries(title, robot, scale, plate.material, *figures, identity, place)
-        sheets.append(complete_sheet(items, notes, entries, refused))
-    return sheets
+        scale, view = _mast_views(plate, mast)
+        entries = Entries(
+            title="Mast behind the trunk",
+            robot=robot,
+            scale=scale,
+            material=plate.material,
+            mass=mast_part(plate, mast).mass(),
+            figure=("Square tube", f"{in_mm(mast.side)} x {in_mm(mast.wall)} (EN 755-8)"),
+            texture="as drawn (extruded)",
+            identity=device_hash(device),
+        )
+        drawn.append((view, _mast_notes(plate, mast), entries))
+    return [
+        complete_sheet(view, notes, replace(entries, sheet=f"{number} / {len(drawn)}"), refused)
+        for number, (view, notes, entries) in enumerate(drawn, start=1)
+    ]
 
 
 def _title(plate: CarrierPlate, indices: Sequence[int]) -> str:

@@ -104,11 +104,16 @@ def wheel_sheet(drawing: WheelDrawing) -> list[Item]:
     if wheel.shrunk_on:
         fine, material = "all fits", "see list of parts"
     inertia = f"{significant(1e6 * drawing.mass_properties.inertia[2, 2], 4)} kg mm²"
-    figure = "Spin inertia about the axis", inertia
-    texture = f"Ra 3.2, {fine} Ra {1e6 * SEAT_ROUGHNESS:g} (ISO 21920)"
-    figures = material, sum(drawing.masses), figure, texture, drawing.identity
-    title = title_of("OCS flywheel", drawing.count)
-    entries = Entries(title, drawing.robot, layout.scale, *figures)
+    entries = Entries(
+        title=title_of("OCS flywheel", drawing.count),
+        robot=drawing.robot,
+        scale=layout.scale,
+        material=material,
+        mass=sum(drawing.masses),
+        figure=("Spin inertia about the axis", inertia),
+        texture=f"Ra 3.2, {fine} Ra {1e6 * SEAT_ROUGHNESS:g} (ISO 21920)",
+        identity=drawing.identity,
+    )
     views = [*section_view(wheel, layout), *front_view(wheel, layout)]
     parts = parts_list(drawing)
     return complete_sheet(views, notes(drawing), entries, drawing.refused, parts=parts)
