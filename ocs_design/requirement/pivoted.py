@@ -506,7 +506,7 @@ class StandUp(Pivoted):
         return Slew(np.zeros(shape), momentum, SPIN_UP)
 
     def as_built(self, slew: Slew, built: Built) -> Slew:
-        """With a brake, the wheels' speed is that of the design, whatever is built."""
+        """The slew as built; with a brake, that of the design, whatever is built."""
         return slew if self.braked else super().as_built(slew, built)
 
     @property

@@ -28,22 +28,27 @@ BODY = Gyrostat(np.diag([0.03, 0.0535, 0.068]), module_axes(np.radians(40.0)), 1
 FLIP = Turn(PITCH, 0.0, -2.0 * np.pi, 2.0)
 
 
-def test_a_turn_runs_from_rest_to_rest_with_its_derivatives():
+@pytest.mark.parametrize("ramp", [0.0, 0.1, 0.3, 0.5])
+def test_a_turn_runs_from_rest_to_rest_with_its_derivatives(ramp):
+    flip = replace(FLIP, ramp=ramp)
     ends = np.array([0.0, 2.0])
-    np.testing.assert_allclose(FLIP.angle(ends), [0.0, -2.0 * np.pi], atol=1e-12)
-    np.testing.assert_allclose(FLIP.rate(ends), 0.0, atol=1e-12)
-    np.testing.assert_allclose(FLIP.acceleration(ends), 0.0, atol=1e-12)
+    np.testing.assert_allclose(flip.angle(ends), [0.0, -2.0 * np.pi], atol=1e-12)
+    np.testing.assert_allclose(flip.rate(ends), 0.0, atol=1e-12)
+    np.testing.assert_allclose(flip.acceleration(ends), 0.0, atol=1e-12)
     t, h = np.linspace(0.02, 1.98, 97), 1e-6
-    slope = (FLIP.angle(t + h) - FLIP.angle(t - h)) / (2 * h)
-    np.testing.assert_allclose(FLIP.rate(t), slope, atol=1e-7)
-    slope = (FLIP.rate(t + h) - FLIP.rate(t - h)) / (2 * h)
-    np.testing.assert_allclose(FLIP.acceleration(t), slope, atol=1e-3)
+    slope = (flip.angle(t + h) - flip.angle(t - h)) / (2 * h)
+    np.testing.assert_allclose(flip.rate(t), slope, atol=1e-7)
+    slope = (flip.rate(t + h) - flip.rate(t - h)) / (2 * h)
+    np.testing.assert_allclose(flip.acceleration(t), slope, atol=1e-3)
 
 
 def test_peaks_are_as_documented():
     turn, time = Turn(PITCH, 0.0, 1.0, 1.0), np.linspace(0.0, 1.0, 100_001)
     assert turn.rate(time).max() == pytest.approx(1.875)
     assert turn.acceleration(time).max() == pytest.approx(10.0 / np.sqrt(3.0))
+    trapezoid = replace(turn, ramp=0.2)
+    assert trapezoid.rate(time).max() == pytest.approx(1.0 / 0.8)
+    assert trapezoid.acceleration(time).max() == pytest.approx(1.5 / (0.2 * 0.8))
 
 
 def test_a_turn_holds_its_ends_before_and_after():
@@ -75,7 +80,17 @@ def test_a_feasible_turn_stays_as_it_is():
     assert fitted.note == ""
 
 
-def test_a_wheel_that_is_too_slow_gets_more_time_with_a_note():
+def test_a_wheel_a_little_too_slow_gets_a_flatter_rate():
+    limits = MotorLimits(2000.0, 0.0, np.inf)
+    assert utilisation(FLIP, BODY, limits) > 1.0
+    fitted = fit_turn(FLIP, BODY, limits)
+    assert fitted.ramp > 0.0
+    assert fitted.duration == FLIP.duration
+    assert utilisation(fitted, BODY, limits) <= RESERVE
+    assert "trapezoid" in fitted.note
+
+
+def test_a_wheel_far_too_slow_gets_more_time_with_a_note():
     limits = MotorLimits(700.0, 350.0, 1.0)
     fitted = fit_turn(FLIP, BODY, limits)
     assert utilisation(fitted, BODY, limits) == pytest.approx(RESERVE, rel=1e-6)
@@ -115,7 +130,7 @@ def law(builder):
 def planned(builder, maneuver):
     """The quintic turn of a maneuver with its exact feed-forward torque."""
     world = builder.flight(maneuver, Wheels.ACTIVE)
-    return from_rest(world.body, replace(world.turn, at_once=False))
+    return from_rest(world.body, replace(world.turn, ramp=0.0, at_once=False))
 
 
 def until_landing(builder, maneuver, trajectory):
