@@ -172,7 +172,7 @@ class PairBounds:
 
 def least_masses(floor: RimFloor, drives: Drives, spin_inertia: FloatArray) -> FloatArray:
     """Lower bounds of the device's mass [kg], shape (materials, n); inf: no device."""
-    on_webs = drives.with_web_density(floor.web_density[:, None])
+    on_webs = drives.with_web_densities(floor.web_density[:, None])
     rim = spin_inertia - on_webs.inertia_beside_rim
     lightest = np.where(np.isfinite(rim), floor.at(np.where(np.isfinite(rim), rim, 0.0)), np.inf)
     return floor.wheels * (on_webs.mass + lightest)
@@ -238,15 +238,14 @@ def bare_trunk(problem: SelectionProblem, drives: Drives) -> TiltInertia:
     # The holes are at most this far behind the floor.
     holes = seat.holes * problem.foot_plate
     fullest = np.minimum(room.mass_max, np.pi * density * widest**2 * room.height_max)
-    hub = np.maximum(drives.hub_mass, 0.0)
-    web = np.pi * problem.web_thickness * drives.web_density * widest**2
+    web = np.pi * problem.web_thickness * drives.web_density_max * widest**2
     guard, tallest = problem.guard_wall, np.maximum(room.height_max, seat.room)
     # Posts are longest behind the flattest rim.
     around = Printed(seat.reach, guard_wall=guard, foot_plate=problem.foot_plate)
     shell = around.mass(widest, tallest) + seat.posts.mass(np.zeros_like(widest))
     module = ModuleBounds(
         size=drives.size(widest + guard, tallest),
-        mass=at_floor.mass + at_wheel.mass + hub + fullest + web + shell,
+        mass=at_floor.mass + at_wheel.mass + drives.hub_mass_max + fullest + web + shell,
         depth=(half_height(tallest) * stands + holes - at_floor.y - at_wheel.y) / behind,
         above=(at_floor.z + at_wheel.z) / behind,
     )

@@ -94,7 +94,7 @@ class Candidates(Table):
     @cached_property
     def drives(self) -> Drives:
         """Motor and gear of each, with the hub of its wheel."""
-        return self.pairs.with_web_density(self.problem.web_densities[self.material])
+        return self.pairs.with_web_densities(self.problem.web_densities[self.material])
 
     @cached_property
     def limits(self) -> RimLimits:
@@ -154,7 +154,7 @@ class Candidates(Table):
         mass = shapes.rim_mass + shapes.web_mass + drives.hub_mass
         housed_height = np.maximum(height, seat.room)
         moments = (
-            round_body(mass, wheel, transverse + web + drives.hub.across * drives.web_density)
+            round_body(mass, wheel, transverse + web + drives.hub.across * drives.web_density_max)
             + self.shell.moments(outer, housed_height)
             + seat.posts.moments(height)
             + seat.by_wheel
@@ -312,7 +312,8 @@ def drives_of(
         rotor_share=share[rows],
         armature=armatures[rows],
         hub=stacked([*hubs, HubFigures.of(NO_HUB)]).take(rows),
-        web_density=np.full(len(pairs), problem.web_densities.max()),
+        web_density_min=np.full(len(pairs), problem.web_densities.min()),
+        web_density_max=np.full(len(pairs), problem.web_densities.max()),
     )
     if not problem.web:
         return drives

@@ -94,7 +94,8 @@ class Drives(Table):
         rotor_share: rotor's share of the spin inertia [kg m^2].
         armature: inertia that the motor accelerates beyond the spin inertia [kg m^2].
         hub: of the wheel.
-        web_density: of web and hub [kg/m^3]; the largest of all materials until one is chosen.
+        web_density_min, web_density_max: bounds of the density of web and hub [kg/m^3], over all
+            materials of the problem until one is chosen.
     """
 
     motor: NDArray[np.intp]
@@ -105,23 +106,29 @@ class Drives(Table):
     rotor_share: FloatArray
     armature: FloatArray
     hub: HubFigures[FloatArray]
-    web_density: FloatArray
+    web_density_min: FloatArray
+    web_density_max: FloatArray
 
     def __len__(self) -> int:
         return self.motor.size
 
-    def with_web_density(self, density: FloatArray) -> "Drives":
-        """Drives with webs and hubs of this density [kg/m^3]."""
-        return replace(self, web_density=density)
+    def with_web_densities(self, density: FloatArray) -> "Drives":
+        """Drives with webs and hubs of these densities [kg/m^3]."""
+        return replace(self, web_density_min=density, web_density_max=density)
 
     @property
     def hub_mass(self) -> FloatArray:
-        """Mass of the wheel's hub beyond its web [kg]; negative where it replaces more web."""
-        return self.hub.volume * self.web_density
+        """Least mass of the wheel's hub beyond its web [kg]."""
+        return np.minimum(*self._of_hub(self.hub.volume))
+
+    @property
+    def hub_mass_max(self) -> FloatArray:
+        """Largest mass of the wheel's hub beyond its web [kg]."""
+        return np.maximum(*self._of_hub(self.hub.volume))
 
     @property
     def mass(self) -> FloatArray:
-        """Mass of motor, gear and hub, less the mount's holes, without posts [kg]."""
+        """Least mass of motor, gear and hub, less the mount's holes, without posts [kg]."""
         return self.seat.by_floor.mass + self.seat.by_wheel.mass + self.hub_mass
 
     def size(self, outer_radius: FloatArray, height: FloatArray) -> Size[FloatArray]:
@@ -132,8 +139,12 @@ class Drives(Table):
 
     @property
     def inertia_beside_rim(self) -> FloatArray:
-        """Part of the spin inertia that rim and web need not provide [kg m^2]."""
-        return self.rotor_share + self.hub.spread * self.web_density
+        """Largest part of the spin inertia that rim and web need not provide [kg m^2]."""
+        return self.rotor_share + np.maximum(*self._of_hub(self.hub.spread))
+
+    def _of_hub(self, figure: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """A figure per density at either density; negative where the hub replaces more web."""
+        return figure * self.web_density_min, figure * self.web_density_max
 
     @property
     def line(self) -> DriveLine:

@@ -216,9 +216,14 @@ def search(
     least = np.where(state.known, state.least, np.nan)
     order = np.argsort(least, axis=None, kind="stable")[: int(state.known.sum())]
     pairs = np.stack(np.unravel_index(order, least.shape), axis=-1)
+    # Every motor once with its lightest gear, then all.
+    _, first = np.unique(pairs[:, 0], return_index=True)
+    others = np.delete(pairs, first, axis=0)
+    chunks = (
+        others[start : start + _PAIRS_AT_ONCE] for start in range(0, len(others), _PAIRS_AT_ONCE)
+    )
     webs = np.arange(len(problem.lightenings))
-    for start in range(0, len(pairs), _PAIRS_AT_ONCE):
-        chunk = pairs[start : start + _PAIRS_AT_ONCE]
+    for chunk in (pairs[first], *chunks):
         # Bound the pairs that may be ranked, then solve those that still may be.
         pairs_left = chunk[state.least[tuple(chunk.T)] < state.listed_below[chunk[:, 0]]]
         if not pairs_left.size:
