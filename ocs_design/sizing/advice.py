@@ -107,7 +107,7 @@ def _promising(problem: SelectionProblem) -> Iterator[tuple[Candidates, Guess]]:
     drives = drives_of(problem, np.argwhere(known_pairs(problem)))
     intervals = incidence_intervals(problem.incidence, _INTERVALS)
     # Least spin inertia of their wheels, whatever they weigh; inf where no wheel would do.
-    least = least_spin_inertias(problem, drives, intervals).min(axis=1)
+    least = least_spin_inertias(problem, drives, intervals, np.zeros(len(drives))).min(axis=1)
     candidates = Candidates.of_each_material(problem, drives)
     # Candidates whose largest wheel has the most margin come first; too small ones are dropped.
     inertia_beside_rim = candidates.drives.inertia_beside_rim
@@ -116,19 +116,19 @@ def _promising(problem: SelectionProblem) -> Iterator[tuple[Candidates, Guess]]:
     margin = largest / np.maximum(needed, 1e-15)
     large_enough = np.flatnonzero((largest > inertia_beside_rim) & (margin >= 1.0))
     order = large_enough[np.argsort(-margin[large_enough], kind="stable")]
-    left = candidates.take(order)
+    left, needed = candidates.take(order), needed[order]
     sizes = chain([_FIRST_BOUNDED], repeat(_BOUNDED))
     while len(left):
         size = next(sizes)
         block = left.take(np.arange(min(size, len(left))))
-        guess = initial_guess(block)
+        guess = initial_guess(block, needed[:size])
         rows = np.flatnonzero(np.isfinite(guess.mass))
         solved = chain([_FIRST_SOLVED], repeat(_SOLVED))
         while rows.size:
             count = next(solved)
             yield block.take(rows[:count]), guess.take(rows[:count])
             rows = rows[count:]
-        left = left.take(np.arange(size, len(left)))
+        left, needed = left.take(np.arange(size, len(left))), needed[size:]
 
 
 def advice_on(

@@ -1,7 +1,7 @@
 """Lower bounds on the mass of every candidate, and an initial guess for its incidence.
 
-Each is proved by monotone terms (docs/theory.md, The selection): the robot alone gives a bound on
-the spin inertia, and that one on the mass.
+Each is proved by monotone terms (docs/theory.md, The selection): a bound on the spin inertia gives
+one on the mass, that gives one on the composite inertia, and that a better one on the spin inertia.
 """
 
 from collections.abc import Sequence
@@ -17,6 +17,7 @@ from ocs_design.actuation.tilt_inertia import OUT_OF_REACH, TiltInertia
 from ocs_design.actuation.wheel_load import WheelBound, spin_demand
 from ocs_design.common.arrays import FloatArray
 from ocs_design.device.layout import Layout
+from ocs_design.parts.housing import PlainDrum
 from ocs_design.parts.module import Printed
 from ocs_design.parts.motor_mount import hub_of, mount_of
 from ocs_design.parts.printed import half_height
@@ -24,13 +25,20 @@ from ocs_design.parts.rim import LIGHTENED
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.requirement import Requirement
 from ocs_design.sizing.bound.rim_problem import (
+    BORE_SHARE,
     OFF_THE_EDGE,
+    RimLimits,
     limits_with_web,
     smallest_rim_inertia,
 )
 from ocs_design.sizing.lightest_module import lightest_module
+from ocs_design.sizing.module_radii import smallest_radius
 from ocs_design.sizing.selection.candidates import Candidates, Guess, known_pairs, rim_limits
-from ocs_design.sizing.selection.composite_inertia import ModuleBounds, largest_coupling
+from ocs_design.sizing.selection.composite_inertia import (
+    LeastInertia,
+    ModuleBounds,
+    least_composite_inertia,
+)
 from ocs_design.sizing.selection.demand import column, columns, rate_change_spin_inertia
 from ocs_design.sizing.selection.drives import Drives
 from ocs_design.sizing.selection.problem import SelectionProblem
@@ -179,23 +187,30 @@ def least_masses(floor: RimFloor, drives: Drives, spin_inertia: FloatArray) -> F
 
 
 def least_spin_inertias(
-    problem: SelectionProblem, drives: Drives, intervals: Sequence[Interval]
+    problem: SelectionProblem,
+    drives: Drives,
+    intervals: Sequence[Interval],
+    below: FloatArray,
+    limits: RimLimits | None = None,
 ) -> FloatArray:
-    """Lower bounds of the spin inertia of n drives in k intervals [kg m^2], shape (n, k).
+    """Lower bounds of the spin inertia of each drive, improved per interval [kg m^2], shape (n, k).
 
-    They are for the robot alone: what the device adds to its inertia only makes them larger.
+    Args:
+        below: the best lower bound known over all intervals [kg m^2], shape (n,).
+        limits: of their rims; None: those of the problem as a whole.
     """
-    requirement, trunk = problem.requirement, column(bare_trunk(problem, drives))
+    requirement, least = problem.requirement, least_inertia(problem, drives, below, limits)
     line, armature = columns(drives.line), drives.armature[:, None]
-    axes = np.stack([problem.layout.hull(*interval) for interval in intervals])
-    needed = np.zeros((len(drives), len(intervals)))
+    needed = np.broadcast_to(below[:, None], (len(drives), len(intervals)))
     for maneuver in requirement.maneuvers:
         incidence = maneuver.incidence
         maneuver_intervals = intervals if incidence is None else [Interval(incidence, incidence)]
-        task = bound_task(maneuver, requirement, trunk, maneuver_intervals, problem.layout)
-        needed = np.maximum(needed, smallest_root(spin_demand(task, line, armature)))
+        task = bound_task(maneuver, requirement, least, maneuver_intervals, problem.layout)
+        demand = spin_demand(task, line, armature, below[:, None])
+        needed = np.maximum(needed, smallest_root(demand))
     if requirement.rate_change is not None:
-        uncoupled = TiltInertia.uncoupled(trunk.diagonal)
+        uncoupled = column(TiltInertia.uncoupled(least.inertia.diagonal))
+        axes = np.stack([problem.layout.hull(*interval) for interval in intervals])
         by_rate = rate_change_spin_inertia(requirement.rate_change, drives, uncoupled, axes)
         needed = np.maximum(needed, by_rate)
     specified = requirement.spin_inertia
@@ -207,20 +222,22 @@ def least_spin_inertias(
 def bound_task(
     maneuver: Maneuver,
     requirement: Requirement,
-    trunk: TiltInertia,
+    least: LeastInertia,
     intervals: Sequence[Interval],
     layout: Layout,
 ) -> WheelBound:
     """The least that a maneuver requires of n trunks' wheels at k intervals, shape (n, k, ...)."""
-    slew = requirement.slew(maneuver, TiltInertia.uncoupled(trunk.diagonal))
+    inertia = column(least.inertia)
+    slew = requirement.slew(maneuver, TiltInertia.uncoupled(inertia.diagonal))
     ends = np.abs(layout.axes(np.array(intervals)))[..., :2, :]
     return WheelBound(
         swept=slew.swept,
         momentum=slew.momentum,
         duration=slew.duration,
-        inertia=trunk,
+        inertia=inertia,
         axes=np.stack([layout.hull(*interval) for interval in intervals]),
-        turn=np.asarray(maneuver.turn) * requirement.reserve(maneuver).demand,
+        turn=np.asarray(maneuver.turn),
+        spread=least.spread[:, None],
         # Over an interval, each axis is least at one of the ends.
         reached=(ends.max(axis=-1) > OUT_OF_REACH).all(axis=1),
         initial_speed=slew.initial_speed,
@@ -228,10 +245,31 @@ def bound_task(
     )
 
 
-def bare_trunk(problem: SelectionProblem, drives: Drives) -> TiltInertia:
-    """Inertia of the robot alone, with the largest |J_xy| that it may have with each device."""
+def least_inertia(
+    problem: SelectionProblem,
+    drives: Drives,
+    spin_inertia: FloatArray,
+    limits: RimLimits | None = None,
+) -> LeastInertia:
+    """Inertia of the robot with modules whose wheels have at least that spin inertia [kg m^2].
+
+    Limits of their rims improve the bound, at the cost of computing the lightest rims.
+    """
     room, density = problem.envelope, max(material.density for material in problem.materials)
-    widest, seat = np.full(len(drives), room.outer_radius_max), drives.seat
+    rim = np.maximum(
+        np.where(np.isfinite(spin_inertia), spin_inertia - drives.inertia_beside_rim, 0.0), 0
+    )
+    zero, widest = np.zeros_like(rim), np.full_like(rim, room.outer_radius_max)
+    if limits is None:
+        closed = room.wall_min / (1.0 - BORE_SHARE)
+        radius = zero + max(room.inner_radius_min + room.wall_min, closed)
+        wheel = rim / widest**2 + PlainDrum().mass(radius, zero + room.height_min)
+    else:
+        rim = np.maximum(rim, smallest_rim_inertia(limits) * OFF_THE_EDGE)
+        # A wheel of more spin inertia is not smaller.
+        radius = np.minimum(smallest_radius(rim, limits), widest)
+        wheel = _SAFETY * np.nan_to_num(lightest_module(rim, limits, PlainDrum(), _DIGITS).mass)
+    seat = drives.seat
     at_floor, at_wheel = seat.by_floor, seat.by_wheel
     stands = at_floor.mass + seat.holes
     behind = stands + at_wheel.mass
@@ -242,25 +280,32 @@ def bare_trunk(problem: SelectionProblem, drives: Drives) -> TiltInertia:
     guard, tallest = problem.guard_wall, np.maximum(room.height_max, seat.room)
     # Posts are longest behind the flattest rim.
     around = Printed(seat.reach, guard_wall=guard, foot_plate=problem.foot_plate)
-    shell = around.mass(widest, tallest) + seat.posts.mass(np.zeros_like(widest))
-    module = ModuleBounds(
-        size=drives.size(widest + guard, tallest),
-        mass=at_floor.mass + at_wheel.mass + drives.hub_mass_max + fullest + web + shell,
+    shell = around.mass(widest, tallest) + seat.posts.mass(zero)
+    least = ModuleBounds(
+        mass=np.maximum(wheel + drives.hub_mass - seat.holes, 0.0),
+        # A body of revolution has at least half its axial inertia across its axis.
+        inertia=drives.hub_inertia + rim / 2.0,
+        behind=behind,
         depth=(half_height(tallest) * stands + holes - at_floor.y - at_wheel.y) / behind,
         above=(at_floor.z + at_wheel.z) / behind,
+        smallest=drives.size(radius + guard, zero + room.height_min),
+        largest=drives.size(widest + guard, tallest),
+        heaviest=at_floor.mass + at_wheel.mass + drives.hub_mass_max + fullest + web + shell,
     )
-    coupling = largest_coupling(problem.robot, problem.place, module, problem.layout)
-    return TiltInertia(np.tile(np.diag(problem.robot.inertia)[:2], (len(drives), 1)), coupling)
+    return least_composite_inertia(problem.robot, problem.place, least, problem.layout)
 
 
-def initial_guess(candidates: Candidates) -> Guess:
+def initial_guess(candidates: Candidates, spin_inertia: FloatArray) -> Guess:
     """Bounds of candidates with their own hubs, mounts and stresses, at their best incidences.
 
     The bounds on masses above hold for all wheels of a problem. The lightest module of a single
-    candidate takes a hundredth of the time of its fixed point.
+    candidate takes a hundredth of the time of its fixed point. `spin_inertia` is a lower bound of
+    their wheels' [kg m^2], shape (n,).
     """
     intervals = incidence_intervals(candidates.problem.incidence)
-    bounds = least_spin_inertias(candidates.problem, candidates.drives, intervals)
+    bounds = least_spin_inertias(
+        candidates.problem, candidates.drives, intervals, spin_inertia, candidates.limits
+    )
     # The uncertainty extends beyond the best interval, as that of the bound need not contain the
     # best incidence.
     low, high = np.array([(interval.low, interval.high) for interval in intervals])[

@@ -1,8 +1,8 @@
-"""Composite inertia of robot and all braked modules, for many devices, and its largest coupling."""
+"""Composite inertia of robot and all braked modules, for many devices, and its lower bound."""
 
 from dataclasses import dataclass
 from itertools import combinations_with_replacement
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -74,59 +74,123 @@ class CompositeInertia:
         return TiltInertia(np.stack([yy + zz, xx + zz], axis=-1), product), xx + yy
 
 
-class ModuleBounds(NamedTuple):
-    """Upper bounds for one module of a kind, all of shape (n,).
+_Range: TypeAlias = tuple[FloatArray, FloatArray]
+"""Two ends, from and to."""
+
+
+class LeastInertia(NamedTuple):
+    """Lower bound of the inertia about roll and pitch, and the range of their coupling.
 
     Attributes:
-        size: of the module. mass: of all of it [kg].
-        depth, above: offset of the centre of mass of its parts behind the wheel from the wheel's
-            centre, backwards and upwards [m].
+        inertia: the least about either axis, with the coupling of the robot alone, shape (n, 2).
+        spread: largest difference of J_xy from that coupling [kg m^2], shape (n,).
     """
 
-    size: Size[FloatArray]
+    inertia: TiltInertia
+    spread: FloatArray
+
+
+class ModuleBounds(NamedTuple):
+    """Lower and upper bounds for one module of a kind, all of shape (n,).
+
+    Attributes:
+        mass: least mass of the parts centred on the wheel, wheel and drum [kg].
+        inertia: least inertia of those about any axis [kg m^2].
+        behind: least mass of the parts behind them [kg].
+        depth, above: largest offset of their centre of mass from the wheel's centre [m].
+        smallest, largest: bounds of the module's size.
+        heaviest: largest mass [kg].
+    """
+
     mass: FloatArray
+    inertia: FloatArray
+    behind: FloatArray
     depth: FloatArray
     above: FloatArray
+    smallest: Size[FloatArray]
+    largest: Size[FloatArray]
+    heaviest: FloatArray
+
+    def asymmetry(self, apart: FloatArray, layout: Layout) -> FloatArray:
+        """Upper bound on I_xy about their middle of modules that are not mirror images [kg m^2].
+
+        `apart`: positions of the wheels from their middle at each corner of the sizes [m], shape
+        (..., n, w, 3).
+        """
+        _, outward, upward = np.moveaxis(layout.frames(layout.angle or 0.0), -1, 0)
+        turned = sum(
+            abs(float((one[:, 0] * other[:, 1] + other[:, 0] * one[:, 1]).sum()))
+            for one, other in ((outward, outward), (upward, upward), (outward, upward))
+        )
+        along, across = np.abs(apart[..., 0]), np.abs(apart[..., 1])
+        places = np.abs((apart[..., 0] * apart[..., 1]).sum(axis=-1)).max(axis=0)
+        moved = (along + across).sum(axis=-1).max(axis=0) * np.abs(self.depth)
+        return np.asarray(self.heaviest * (places + moved + turned * self.largest.reach**2))
+
+    def coupling_spread(
+        self, robot: MassProperties, x: _Range, z: _Range, wheels: int
+    ) -> FloatArray:
+        """Upper bound on a device's change of J_xy, term by term [kg m^2], shape (n,).
+
+        A module's own products of inertia are at most its mass times the square of its size.
+        """
+        reach, standing = self.largest
+        room, mass = reach + standing + np.abs(self.above), wheels * self.heaviest
+        reduced = robot.mass * mass / (robot.mass + mass)
+        forward, up = (
+            np.maximum(np.abs(low - about), np.abs(high - about)) + room
+            for (low, high), about in ((x, robot.com[0]), (z, robot.com[2]))
+        )
+        left, (xz, yz) = abs(robot.com[1]), np.abs(robot.inertia[:2, 2])
+        aslant, sideways = reduced * forward * up + mass * room**2, reduced * left * up
+        # Change of I_xz I_yz / I_zz; the last term is there because I_zz grows too.
+        yaw = aslant * yz + xz * sideways + aslant * sideways + xz * yz
+        return np.asarray(reduced * left * forward + yaw / robot.inertia[2, 2])
 
 
-def largest_coupling(
-    robot: MassProperties, place: Place, module: ModuleBounds, layout: Layout = PAIR
-) -> FloatArray:
-    """Upper bound of |J_xy| of the robot with any device of such modules [kg m^2], shape (n,).
+def least_composite_inertia(
+    robot: MassProperties, place: Place, least: ModuleBounds, layout: Layout = PAIR
+) -> LeastInertia:
+    """Lower bound of the inertia with modules no smaller and no lighter than the given bounds.
 
-    The change of J_xy is bounded term by term. A module's own products of inertia are at most its
-    mass times the square of its size.
+    Every term increases with mass, inertia or a distance; each distance takes its own minimum over
+    the positions from the smallest to the largest module, at any incidence. The foot, which is left
+    out, would only add to the inertia about the common centre of mass.
     """
-    reach, standing = module.size
-    none = np.zeros_like(reach)
-    corners = np.stack([place.centers(Size(r, h)) for r in (none, reach) for h in (none, standing)])
-    middle = corners.mean(axis=-2)
-    room, mass = reach + standing + np.abs(module.above), corners.shape[-2] * module.mass
-    reduced = robot.mass * mass / (robot.mass + mass)
-    forward, left, up = (np.abs(middle - robot.com).max(axis=0) + room[:, None]).T
-    left, (xz, yz) = abs(robot.com[1]), np.abs(robot.inertia[:2, 2])
-    aslant, sideways = reduced * forward * up + mass * room**2, reduced * left * up
-    # Change of I_xz I_yz / I_zz; the last term is there because I_zz grows too.
-    yaw = aslant * yz + xz * sideways + aslant * sideways + xz * yz
-    coupling = abs(TiltInertia.of(robot.inertia).product) + reduced * left * forward
-    coupling = coupling + yaw / robot.inertia[2, 2]
-    if not layout.pairs:
-        coupling = coupling + _asymmetry(module, corners - middle[..., None, :], layout)
-    return np.asarray(coupling)
-
-
-def _asymmetry(module: ModuleBounds, apart: FloatArray, layout: Layout) -> FloatArray:
-    """Upper bound on I_xy about their middle of modules that are not mirror images [kg m^2].
-
-    `apart`: positions of the wheels from their middle at each corner of the sizes [m], shape (...,
-    n, w, 3).
-    """
-    _, outward, upward = np.moveaxis(layout.frames(layout.angle or 0.0), -1, 0)
-    turned = sum(
-        abs(float((one[:, 0] * other[:, 1] + other[:, 0] * one[:, 1]).sum()))
-        for one, other in ((outward, outward), (upward, upward), (outward, upward))
+    corners = np.stack(
+        [
+            place.centers(Size(reach, standing))
+            for reach in (least.smallest.reach, least.largest.reach)
+            for standing in (least.smallest.wheel_height, least.largest.wheel_height)
+        ]
     )
-    along, across = np.abs(apart[..., 0]), np.abs(apart[..., 1])
-    places = np.abs((apart[..., 0] * apart[..., 1]).sum(axis=-1)).max(axis=0)
-    moved = (along + across).sum(axis=-1).max(axis=0) * np.abs(module.depth)
-    return np.asarray(module.mass * (places + moved + turned * module.size.reach**2))
+    middle = corners.mean(axis=-2)
+    x, y, z = zip(middle.min(axis=0).T, middle.max(axis=0).T, strict=True)
+    apart = corners - middle[..., None, :]
+    wheels, mass = corners.shape[-2], least.mass + least.behind
+    off, risen = least.behind * least.depth / mass, least.behind * least.above / mass
+    # A pair's wheels face away from each other: the parts behind them do not shift their middle.
+    aside, sunk = (0.0 * off, 0.0 * off) if layout.pairs else (off, off + np.abs(risen))
+    forward = _least_squared_distance((x[0] - off, x[1] + aside), robot.com[0])
+    left = _least_squared_distance((y[0] - aside, y[1] + aside), robot.com[1])
+    up = _least_squared_distance((z[0] - sunk, z[1] + risen + sunk), robot.com[2])
+    # Spread of the wheels about their own middle, without the parts behind them.
+    spread = _least_squared_distance((apart.min(axis=0), apart.max(axis=0)), 0.0).sum(axis=-2)
+    along, across, above = least.mass * spread.T
+    reduced = robot.mass * wheels * mass / (robot.mass + wheels * mass)
+    own = wheels * least.inertia
+    roll = robot.inertia[0, 0] + reduced * (left + up) + across + above + own
+    pitch = robot.inertia[1, 1] + reduced * (forward + up) + along + above + own
+    diagonal = np.stack([roll, pitch], axis=-1)
+    product = np.full(len(roll), TiltInertia.of(robot.inertia).product)
+    coupling = least.coupling_spread(robot, x, z, wheels)
+    if not layout.pairs:
+        coupling = coupling + least.asymmetry(apart, layout)
+    return LeastInertia(TiltInertia(diagonal, product), coupling)
+
+
+def _least_squared_distance(interval: _Range, point: float) -> FloatArray:
+    """Least squared distance from `point` to any value in a range."""
+    low, high = interval[0] - point, interval[1] - point
+    least: FloatArray = np.maximum(np.maximum(low, -high), 0.0) ** 2
+    return least

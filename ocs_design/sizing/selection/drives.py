@@ -127,6 +127,11 @@ class Drives(Table):
         return np.maximum(*self._of_hub(self.hub.volume))
 
     @property
+    def hub_inertia(self) -> FloatArray:
+        """Least inertia of the wheel's hub about any axis [kg m^2]."""
+        return np.minimum(*self._of_hub(np.minimum(self.hub.spread, self.hub.across)))
+
+    @property
     def mass(self) -> FloatArray:
         """Least mass of motor, gear and hub, less the mount's holes, without posts [kg]."""
         return self.seat.by_floor.mass + self.seat.by_wheel.mass + self.hub_mass

@@ -22,15 +22,14 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import Constraint, Infeasible
 from ocs_design.common.units import format_quantity
 from ocs_design.parts.housing import PlainDrum
-from ocs_design.parts.moments import point
 from ocs_design.parts.rim import cylinder_spin_inertia
 from ocs_design.requirement.device_sections import Envelope
 from ocs_design.sizing.bound.rim_problem import BORE_SHARE, RimLimits, smallest_rim_inertia
 from ocs_design.sizing.lightest_module import lightest_module
-from ocs_design.sizing.selection.bounds import PairBounds, incidence_intervals
+from ocs_design.sizing.selection.bounds import PairBounds, incidence_intervals, least_inertia
 from ocs_design.sizing.selection.candidates import Candidates, drives_of
-from ocs_design.sizing.selection.composite_inertia import CompositeInertia
 from ocs_design.sizing.selection.demand import (
+    column,
     columns,
     rate_change_spin_inertia,
     roll_cancelling_momentum,
@@ -233,19 +232,13 @@ def _parts(
     """Parts of the requirement with the largest wheels that fit, their spin inertias [kg m^2]."""
     requirement, intervals = problem.requirement, incidence_intervals(problem.incidence)
     angles = np.array([(interval.low + interval.high) / 2.0 for interval in intervals])
+    inertia = column(least_inertia(problem, drives, np.zeros(len(drives))).inertia)
     line, armature, wheels = columns(drives.line), drives.armature[:, None], len(problem.layout)
-    shape, room = (len(drives), len(intervals)), problem.envelope
-    # Of the device, only the drives are counted, as points in the middle of the smallest wheels.
-    radius = np.full(len(drives), room.inner_radius_min + room.wall_min)
-    centers = problem.place.centers(drives.size(radius, np.full(len(drives), room.height_min)))
-    composite = CompositeInertia(
-        problem.robot, problem.layout, point(drives.mass), centers - problem.robot.com
-    )
+    shape, yaw_inertia = (len(drives), len(intervals)), problem.robot.inertia[2:, 2]
     for maneuver in requirement.maneuvers:
         incidences = (
             angles if maneuver.incidence is None else np.full(angles.shape, maneuver.incidence)
         )
-        inertia, yaw_inertia = composite.at(np.broadcast_to(incidences, shape))
         axes = np.broadcast_to(problem.layout.axes(incidences), (*shape, 3, wheels))
         task = wheel_task([maneuver], requirement, inertia, yaw_inertia, axes)
         time = float(np.asarray(task.duration).item())
@@ -271,6 +264,7 @@ def _parts(
         )
         reserve = requirement.reserve(maneuver)
         if reserve.roll > 0.0:
+            axes = problem.layout.axes(incidences)
             momentum = roll_cancelling_momentum(
                 reserve.roll, inertia, yaw_inertia, axes, requirement
             )
@@ -285,7 +279,6 @@ def _parts(
                 reason,
             )
     if requirement.rate_change is not None:
-        inertia, _ = composite.at(np.broadcast_to(angles, shape))
         axes = problem.layout.axes(angles)[..., :2, :]
         one_stops = requirement.detection is not None
         needed = rate_change_spin_inertia(

@@ -12,6 +12,7 @@ import numpy as np
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.sizing.selection.bounds import (
+    INTERVALS,
     PairBounds,
     incidence_intervals,
     initial_guess,
@@ -126,7 +127,7 @@ class SearchState(PairBounds):
             if unbounded[batch].any():
                 rows = to_bound[unbounded[to_bound]]
                 unbounded[rows] = False
-                bounds = initial_guess(candidates.take(rows))
+                bounds = initial_guess(candidates.take(rows), guess.spin_inertia[rows])
                 guess = guess.put(rows, bounds)
                 continue
             *_, solved = solve_stepwise(candidates.take(batch), guess.take(batch))
@@ -231,9 +232,18 @@ def search(
         drives = drives_of(
             problem, np.repeat(pairs_left, webs.size, axis=0), np.tile(webs, len(pairs_left))
         )
-        intervals = incidence_intervals(problem.incidence)
-        spin_inertia = least_spin_inertias(problem, drives, intervals).min(axis=1)
-        bound = least_masses(state.floor, drives, spin_inertia)
+        spin_inertia = np.zeros(len(drives))
+        bound = np.full((len(problem.materials), len(drives)), -np.inf)
+        for count in (1, INTERVALS):
+            rows = np.flatnonzero(bound.min(axis=0) < state.listed_below[drives.motor])
+            intervals, drives_left = (
+                incidence_intervals(problem.incidence, count),
+                drives.take(rows),
+            )
+            spin_inertia[rows] = least_spin_inertias(
+                problem, drives_left, intervals, spin_inertia[rows]
+            ).min(axis=1)
+            bound[:, rows] = least_masses(state.floor, drives_left, spin_inertia[rows])
         state.solve_best(drives, spin_inertia, bound)
         for least, values in ((state.spin_inertia, spin_inertia), (state.least, bound.min(axis=0))):
             least[tuple(pairs_left.T)] = values.reshape(len(pairs_left), -1).min(axis=1)
