@@ -34,6 +34,7 @@ class SweepDemand(Table):
         duration: T [s].
         coupling: kappa [1 / (kg m^2)].
         armature: I_m - h [kg m^2].
+        least: smallest spin inertia to consider [kg m^2].
         drive: drive of each wheel.
     """
 
@@ -42,6 +43,7 @@ class SweepDemand(Table):
     duration: FloatArray
     coupling: FloatArray
     armature: FloatArray
+    least: FloatArray
     drive: UnitDrive
 
 
@@ -109,10 +111,10 @@ def smallest_root(demand: SweepDemand) -> FloatArray:
     negative_armature = np.maximum(-demand.armature, 0.0)
     root = np.sqrt(np.maximum(1.0 - 4.0 * demand.coupling * negative_armature, 0.0))
     least_with_inertia = 2.0 * negative_armature / (1.0 + root) * (1.0 + 1e-9)
-    low = np.maximum(by_speed, least_with_inertia)
+    low = np.maximum(np.maximum(by_speed, demand.least), least_with_inertia)
 
     is_required = (demand.sweep > 0.0) | (demand.momentum > 0.0)
-    answer = np.where(is_required, np.inf, 0.0)
+    answer = np.where(is_required, np.inf, demand.least)
     can_move = (drive.torque > 0.0) & (demand.duration > 0.0)
     lane = np.flatnonzero(is_required & can_move & (low <= high))
     start, top = low[lane], high[lane]

@@ -373,14 +373,19 @@ def smallest_spin_inertia(
     they turn and the search ends. Only a negative armature (a gear that speeds the wheel up) can
     make the time rise again temporarily, or a wheel that turns against the turn at the start: a
     smaller one gets away from that speed, at which it has less torque on the way back. A larger h,
-    required by another turn, must then be checked again. The task's inertia is fixed, independent
-    of h; `armature`: I_m - h [kg m^2], shape (...).
+    required by another turn, must then be checked again, as `least` of `spin_demand`. The task's
+    inertia is fixed, independent of h; `armature`: I_m - h [kg m^2], shape (...).
     """
     return smallest_root(spin_demand(task, line, armature))
 
 
-def spin_demand(task: WheelTask, line: DriveLine, armature: ArrayLike = 0.0) -> SweepDemand:
-    """Demand that `smallest_spin_inertia` solves for; arguments as there."""
+def spin_demand(
+    task: WheelTask, line: DriveLine, armature: ArrayLike = 0.0, least: ArrayLike = 0.0
+) -> SweepDemand:
+    """Demand that `smallest_spin_inertia` solves for; arguments as there.
+
+    `least` is the smallest h to consider [kg m^2], shape (...).
+    """
     load = task.load()
     duration = np.asarray(task.duration, dtype=np.float64)
     return SweepDemand(
@@ -389,6 +394,7 @@ def spin_demand(task: WheelTask, line: DriveLine, armature: ArrayLike = 0.0) -> 
         duration=duration,
         coupling=load.coupling,
         armature=np.asarray(armature, dtype=np.float64),
+        least=np.asarray(least, dtype=np.float64),
         drive=UnitDrive.of(*load.from_initial_speed(line)),
     )
 

@@ -553,6 +553,7 @@ class _SampledManeuver:
             duration=self.duration,
             coupling=np.asarray(load.coupling.item()),
             armature=np.asarray(self.device.drive.armature),
+            least=np.zeros(1),
             drive=UnitDrive.of(*load.from_initial_speed(line.reserved(self.share))),
         )
         possible = capability(demand, np.asarray(self.device.spin_inertia)).sweep

@@ -12,6 +12,7 @@ from scipy.optimize import brentq, linprog
 
 from ocs_design.actuation.drive import DriveLine
 from ocs_design.actuation.slew import slew_profile
+from ocs_design.actuation.spin_root import smallest_root
 from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.actuation.wheel_load import (
     SlewReason,
@@ -20,6 +21,7 @@ from ocs_design.actuation.wheel_load import (
     momentum_of_each,
     slew_reason,
     smallest_spin_inertia,
+    spin_demand,
     wheel_slew_time,
     without_each,
 )
@@ -240,10 +242,8 @@ def test_the_smallest_wheel_is_found_where_time_is_not_monotonic():
     largest = 1.0 / (2.0 * load.coupling)
     usual = np.minimum(smallest_spin_inertia(task, line), largest / 4.0)
     armature = -usual * rng.uniform(0.05, 0.5, count)
-    # Smaller wheels have nothing to accelerate.
-    root = np.sqrt(1.0 + 4.0 * load.coupling * armature)
-    least = -2.0 * armature / (1.0 + root) * (1.0 + 1e-9)
-    h = smallest_spin_inertia(task, line, armature)
+    least = -armature * rng.uniform(1.4, 3.0, count)
+    h = smallest_root(spin_demand(task, line, armature, least))
     step = (largest / least) ** (1.0 / (points - 1))
     grid = least * step ** np.arange(points)[:, np.newaxis]
     time = wheel_slew_time(task, grid, line, armature)
@@ -301,6 +301,7 @@ def test_an_uncontrolled_axis():
 def test_empty_and_impossible_tasks():
     empty = WheelTask([0.0, 0.0], [0.0, 0.0], 0.5, axes(ROLL, BODY), pair(0.6))
     assert smallest_spin_inertia(empty, EC45_LINE) == 0.0
+    assert smallest_root(spin_demand(empty, EC45_LINE, least=3e-5)) == 3e-5
     assert wheel_slew_time(empty, [0.0, 1e-4, INF], EC45_LINE).tolist() == [0.0, 0.0, 0.0]
     turn = WheelTask([0.0, 0.01], [0.0, 0.0], 0.5, axes(ROLL, BODY), pair([0.6, 0.6, np.pi / 2]))
     assert np.isinf(wheel_slew_time(turn, [0.0, INF, 1e-4], EC45_LINE)).all()

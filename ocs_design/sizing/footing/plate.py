@@ -37,6 +37,7 @@ from ocs_design.sizing.footing.contact import (
     heights_at,
     highest_of,
     plate_points,
+    ring_points,
 )
 from ocs_design.sizing.footing.feet import SAME_PLACE, SENSES, Feet
 
@@ -113,11 +114,16 @@ def flat_patterns(
         feet.arms,
     )
     lands, middle = disc_points((0.0, 0.0), plates[0].sleeve_radius), np.array([feet.x + row, 0.0])
-    few_points = lands[:: max(1, len(lands) // _POINTS_CHECKED_FIRST)]
-    top, low = _top_and_low(surface, grid.places[:, :, None] + few_points + middle)
-    with np.errstate(invalid="ignore"):
-        rows = np.flatnonzero((top - low <= FLATNESS).all(axis=1))
-    return replace(grid, top=top, low=low).take(rows)
+    few_points, rows = lands[:: max(1, len(lands) // _POINTS_CHECKED_FIRST)], np.arange(len(grid))
+    # Most patterns already fail at a few points of their first screw.
+    for screw_places in grid.places.swapaxes(0, 1):
+        top, low = _top_and_low(surface, screw_places[rows, None] + few_points + middle)
+        with np.errstate(invalid="ignore"):
+            rows = rows[top - low <= FLATNESS]
+        if not len(rows):
+            break
+    top, low = _top_and_low(surface, grid.places[rows, :, None] + few_points + middle)
+    return replace(grid.take(rows), top=top, low=low)
 
 
 def _top_and_low(surface: HeightMap, points: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -234,6 +240,9 @@ NECK_INCREMENTS = (0.0, 5e-3, 10e-3, 15e-3, 20e-3)
 """Increments of half a neck's width to try [m], where the trunk does not take the narrowest plate's
 screws or that plate is too weak."""
 
+_EVERY_NTH = 29
+"""One in this many points of a foot's screw lands is checked first."""
+
 
 def support_at(
     surface: HeightMap,
@@ -251,8 +260,16 @@ def support_at(
     """
     plane = nan if underside is None else underside
     if underside is None:
-        bases = [disc_points(center, feet.radius) for center in feet.centers]
-        plane = highest_of(surface, np.concatenate(bases))
+        # A few points of the screws' lands rule out most places, where they are not level.
+        sampled = np.concatenate(
+            [ring_points(center, *feet.lands)[::_EVERY_NTH] for center in feet.centers]
+        )
+        heights = heights_at(surface, sampled)
+        with np.errstate(invalid="ignore"):
+            level = heights.max() - heights.min() <= FLATNESS
+        if level:
+            bases = [disc_points(center, feet.radius) for center in feet.centers]
+            plane = highest_of(surface, np.concatenate(bases))
     if np.isfinite(plane) and all(
         contact_of("", surface, center, feet.radius, plane=plane, lands=feet.lands).held
         for center in feet.centers
