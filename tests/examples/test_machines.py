@@ -115,7 +115,7 @@ def test_the_limits_of_the_rim_are_those_of_the_wheel_as_built(name, mass, spin,
 def hopper():
     """Specification of REx Hopper, and its device without reserve."""
     specified = specification("rex_hopper")
-    nominal = replace(specified, requirement=replace(specified.requirement, reliability=0.1))
+    nominal = replace(specified, requirement=replace(specified.requirement, reliability=0.5))
     return specified, design_device(read_task(nominal), ranked=False).device
 
 
