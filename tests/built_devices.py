@@ -48,6 +48,19 @@ def geared_device() -> Device:
     return driven_device(drive=drive, carrier=Carrier(0.3, 1e-4, 1e-4))
 
 
+def in_two_rows(plate: CarrierPlate, outwards: float) -> CarrierPlate:
+    """Two plates behind one another; the rear one's trunk screws are farther out by this [m]."""
+    front, rear = 0.1, -0.1
+    return replace(
+        plate,
+        rows=(front, rear),
+        feet=tuple((x + row, y) for row in (front, rear) for x, y in plate.feet),
+        trunk=tuple((x + front, y) for x, y in plate.trunk)
+        + tuple((x + rear, y + outwards * np.sign(y)) for x, y in plate.trunk),
+        sleeves=plate.sleeves * 2,
+    )
+
+
 def with_plate(device: Device) -> Device:
     """The device on a plate; three of its screws have sleeves, two of them of equal length."""
     (x, y, z), foot = device.modules[0].position.tolist(), foot_of(device)

@@ -6,7 +6,14 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from built_devices import CAGED, DEVICES, MAST_PLATE, device_in_layout, housed_device
+from built_devices import (
+    CAGED,
+    DEVICES,
+    MAST_PLATE,
+    device_in_layout,
+    housed_device,
+    in_two_rows,
+)
 from hypothesis import given
 from hypothesis import strategies as st
 from wheel_drawings import box_of, check_words
@@ -191,20 +198,11 @@ def test_the_plate_is_under_the_foot_with_its_screws_and_sleeves():
     assert "its holes leave 0.2 mm around the screws, and paper is less exact" in text
 
 
-@pytest.mark.parametrize("inwards", [0.0, 0.008])
-def test_all_plates_are_made_each_to_its_sheet(inwards):
+@pytest.mark.parametrize("outwards", [0.0, 0.008])
+def test_all_plates_are_made_each_to_its_sheet(outwards):
     """Once the booklet had one plate made, as on ANYmal C, whose front and rear plates differ."""
     device = DEVICES["on a plate"]
-    plate, front, rear = device.plate, 0.1, -0.1
-    twice = replace(
-        plate,
-        rows=(front, rear),
-        feet=tuple((x + row, y) for row in (front, rear) for x, y in plate.feet),
-        trunk=tuple((x + front, y) for x, y in plate.trunk)
-        + tuple((x + rear, y + inwards * np.sign(y)) for x, y in plate.trunk),
-        sleeves=plate.sleeves * 2,
-    )
-    both = replace(device, plate=twice)
+    both = replace(device, plate=in_two_rows(device.plate, outwards))
     text = texts(Assembly("anymal", both), "Steps")
     assert re.search(r"Make the 2 plates \(\d+\) to cad/plate\.pdf", text)
     assert "under their other 8 holes" in text
@@ -212,7 +210,7 @@ def test_all_plates_are_made_each_to_its_sheet(inwards):
     row = next(row for row in bill_rows(both) if row.piece == "plate")
     assert row.quantity == 2
     for words in (text, row.remark):
-        assert ("a sheet for each kind" in words) == bool(inwards)
+        assert ("a sheet for each kind" in words) == bool(outwards)
 
 
 def test_screws_that_the_motor_turns_in_their_play_are_bedded():

@@ -6,7 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from built_devices import DEVICES, MAST_PLATE
+from built_devices import DEVICES, MAST_PLATE, in_two_rows
 from wheel_drawings import REFUSED, assert_refused, box_of, check_words, covers, texts
 
 from ocs_design.export.drawing.plate_sheet import plate_sheets
@@ -136,32 +136,24 @@ def test_the_outline_drawn_is_that_of_the_plate(plate):
     )
 
 
-@pytest.mark.parametrize("inwards", [0.0, 0.008])
-def test_plates_that_differ_have_a_sheet_each(inwards):
+@pytest.mark.parametrize("outwards", [0.0, 0.008])
+def test_plates_that_differ_have_a_sheet_each(outwards):
     """A rear plate whose trunk screws are farther out is not made to the front one's sheet."""
-    front, rear = 0.1, -0.1
-    twice = replace(
-        PLATE,
-        rows=(front, rear),
-        feet=tuple((x + row, y) for row in (front, rear) for x, y in PLATE.feet),
-        trunk=tuple((x + front, y) for x, y in PLATE.trunk)
-        + tuple((x + rear, y + inwards * np.sign(y)) for x, y in PLATE.trunk),
-        sleeves=PLATE.sleeves * 2,
-    )
-    pages = sheets_of(twice)
+    plates = in_two_rows(PLATE, outwards)
+    pages = sheets_of(plates)
     titles = [item.text for page in pages for item in texts(page) if "plate u" in item.text.lower()]
-    if inwards:
+    if outwards:
         assert titles == ["Front plate under the feet", "Rear plate under the feet"]
     else:
         assert titles == ["Plate under the feet, 2 off"]
     # Where they stand: a trunk drilled to the sheet's own table misses them.
     x = PLATE.position[0]
-    middles = [f"({1e3 * (x + row):.4g}, 0)" for row in (front, rear)]
+    middles = [f"({1e3 * (x + row):.4g}, 0)" for row in plates.rows]
     notes = " ".join(item.text for page in pages for item in texts(page))
-    if not inwards:
+    if not outwards:
         middles = [" and ".join(middles)]
     assert re.findall(r"axes cross at x, y = (.*?) of the base frame", notes) == middles
-    for page, plate in zip(pages, twice.single_plates, strict=False):
+    for page, plate in zip(pages, plates.single_plates, strict=False):
         words = [item.text for item in texts(page)]
         assert all(f"{1e3 * y:.2f}" in words for _, y in plate.trunk)
         check_words(page)
