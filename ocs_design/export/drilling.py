@@ -136,7 +136,7 @@ def drilling_of(subject: Subject) -> Drilling | None:
 def _instructions(
     subject: Subject, screw: Screw, count: int, reach: tuple[float, float], thin: str
 ) -> Iterator[str]:
-    """Instructions for so many holes, line by line.
+    """Instructions for drilling a number of holes, line by line.
 
     Args:
         subject: with the device. screw, count: of the holes. thin: words on what thin lines are.

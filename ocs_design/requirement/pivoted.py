@@ -344,7 +344,7 @@ class Pivoted(Maneuver):
         )
 
     def as_built(self, slew: Slew, built: Built) -> Slew:
-        """Torques are larger by weight and tilt.
+        """Slew of robots as built: torques grow with weight and tilt.
 
         A centre of mass off by d over the lever, and a level that is measured wrongly, are a tilt.
         The law keeps to the attitudes of the design, so it stays until the end.
@@ -506,7 +506,7 @@ class StandUp(Pivoted):
         return Slew(np.zeros(shape), momentum, SPIN_UP)
 
     def as_built(self, slew: Slew, built: Built) -> Slew:
-        """The slew as built; with a brake, that of the design, whatever is built."""
+        """Slew of robots as built; with a brake it is that of the design."""
         return slew if self.braked else super().as_built(slew, built)
 
     @property

@@ -144,7 +144,7 @@ class Disturbance(Unforeseen):
         )
 
     def as_built(self, slew: Slew, built: Built) -> Slew:
-        """The lever of a force is shorter by the offset: its angular impulse changes."""
+        """Slew of robots as built: an offset changes the lever and angular impulse of a force."""
         turned = -np.cross(built.offset, self.impulse)[:, :2]
         swept = slew.swept + 0.5 * self.duration * turned
         return replace(slew, swept=swept, momentum=slew.momentum + turned)
