@@ -259,16 +259,14 @@ class WheelBound(WheelTask):
     """Lower bound of a turn's demand, over trunks no lighter and of similar coupling.
 
     Attributes:
-        swept: P without the coupling [N m s^2], shape (..., 2).
+        swept, momentum: least magnitudes of P and L over these trunks, shape (..., 2).
         inertia: no larger than theirs about either axis.
         axes: of a zonotope that contains theirs and is symmetric in roll and in pitch.
-        turn: theta, from which P follows; 0: P is due to a push [rad], shape (..., 2).
         spread: largest difference of J_xy from theirs [kg m^2], shape (...).
         reached: whether the wheels control roll and pitch at all of their incidences; where not,
             the trunk may drift, shape (..., 2).
     """
 
-    turn: ArrayLike
     spread: FloatArray
     reached: NDArray[np.bool_]
 
@@ -277,19 +275,11 @@ class WheelBound(WheelTask):
         diagonal, product = self.inertia
         bound_inertia = TiltInertia(diagonal, np.abs(product) + self.spread)
         share = bound_inertia.share[..., None]
-        known = share < _LOOSE
 
-        # Assume that coupling reduces the sweep as much as it can; an axis that may be left free
-        # adds none, and reduces that of the other one.
-        turn, uncoupled = np.asarray(self.turn), np.abs(self.swept)
-        product_of_turns = turn.prod(axis=-1)
-        sense = np.where(product_of_turns == 0.0, 1.0, np.sign(product_of_turns * product))
-        coupled = sense * np.abs(product) - self.spread
-        least = np.maximum(uncoupled + coupled[..., None] * np.abs(turn[..., ::-1]), 0.0)
+        # An axis that may be left free reduces the inertia about the other one.
         reduction = np.where(self.reached[..., ::-1], 1.0, 1.0 - share**2)
-        least = np.where(self.reached | (turn != 0.0), least, uncoupled) * reduction
-
-        swept, momentum = np.where(known, least, 0.0), np.where(known, self.momentum, 0.0)
+        reduction = np.where(share < _LOOSE, reduction, 0.0)
+        swept, momentum = self.swept * reduction, self.momentum * reduction
         uncoupled_inertia = TiltInertia.uncoupled(diagonal)
         load = WheelTask(swept, momentum, self.duration, uncoupled_inertia, self.axes).load()
         # |a . K b| for the longest axis a about roll and pitch, and any b of the zonotope.

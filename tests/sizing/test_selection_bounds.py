@@ -15,6 +15,7 @@ from ocs_design.device.layout import PAIR, Layout, LayoutName
 from ocs_design.parts.moments import MassMoments, point, round_body
 from ocs_design.parts.solids import Carrier
 from ocs_design.requirement.requirement import ManeuverReserve
+from ocs_design.requirement.turns import Catch
 from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.place import Place, Size, place_around
 from ocs_design.sizing.selection.bounds import (
@@ -115,9 +116,11 @@ def scaled(bodies, factors):
     return MassMoments(*(getattr(bodies, f.name) * factors for f in fields(bodies)))
 
 
-@pytest.mark.parametrize("coupled", [0.0, 1e-4, 0.2])
+@pytest.mark.parametrize("coupled", [0.0, 1e-4, 0.2, -0.05])
 @pytest.mark.parametrize("seed", fast_subset(3, range(3), pytest.mark.exhaustive))
-@pytest.mark.parametrize("kept", [None, ManeuverReserve(rate=(0.1, 0.02))])
+@pytest.mark.parametrize(
+    "kept", [None, ManeuverReserve(demand=1.3), ManeuverReserve(rate=(0.1, 0.02))]
+)
 @pytest.mark.parametrize("layout", [PAIR, TRIAD, TILTED], ids=lambda layout: layout.name)
 def test_more_inertia_and_smaller_shares_require_no_less(layout, kept, seed, coupled):
     """The premise of `selection.bounds`, also where an axis is not controlled."""
@@ -135,22 +138,25 @@ def test_more_inertia_and_smaller_shares_require_no_less(layout, kept, seed, cou
         Interval(0.0, 0.1),
         Interval(0.1, 0.2),
         Interval(0.5, 0.7),
+        Interval(0.6, 0.6),
         Interval(1.4, np.pi / 2.0),
     )
     robot = np.diag(problem.robot.inertia)[:2] * rng.uniform(1.0, 1.5, (n, 2))
     center = coupled * np.sqrt(robot.prod(axis=1))
-    least = LeastInertia(TiltInertia(robot, center), 0.3 * center)
+    least = LeastInertia(TiltInertia(robot, center), 0.3 * np.abs(center))
     angle = np.stack(
         [rng.uniform(interval.low, interval.high, (n, 40)) for interval in intervals], axis=1
     )
     angle[:, 0, 0], angle[:, -1, 0] = 0.0, np.pi / 2.0
     shape = (n, len(intervals), 40)
-    total = TiltInertia(
-        robot[:, None, None, :] * rng.uniform(1.0, 1.1, (*shape, 2)),
-        center[:, None, None] * rng.uniform(0.7, 1.3, shape),
-    )
+    growth, change = rng.uniform(1.0, 1.1, (*shape, 2)), rng.uniform(0.7, 1.3, shape)
+    # The least inertia, with the least and the largest coupling, as the bound assumes them.
+    growth[..., :20, :], change[..., :10], change[..., 10:20] = 1.0, 0.7, 1.3
+    total = TiltInertia(robot[:, None, None, :] * growth, center[:, None, None] * change)
     line = DriveLine(*(np.asarray(values)[:, None, None] for values in astuple(drives.line)))
-    for maneuver in problem.requirement.maneuvers:
+    drop = replace(problem.requirement.maneuvers[0], roll=0.3, pitch=0.3)
+    catch = Catch(name="catch", gravity=0.0, jump_height=0.0, duration=0.5, rate=(1.0, 1.0, 0.0))
+    for maneuver in (*problem.requirement.maneuvers, drop, catch):
         # Wheels that turn beforehand, in the required sense or against it.
         initial_speed = 30.0 * (seed - 1)
         tasks = replace(
@@ -185,15 +191,25 @@ def test_axes_longer_than_one_bound_those_of_a_range():
     assert np.isfinite(smallest_spin_inertia(task, drives.line)).all()
 
 
+@pytest.mark.parametrize("share", [1.0, 0.1], ids=["robot", "light robot"])
 @pytest.mark.parametrize(
     ("seed", "layout"), [*((seed, PAIR) for seed in range(8)), (0, TRIAD), (1, TRIAD), (3, TILTED)]
 )
-def test_no_device_falls_below_its_bound(seed, layout):
-    """Devices of random radius and incidence, each at its own fixed point."""
+def test_no_device_falls_below_its_bound(seed, layout, share):
+    """Devices of random radius and incidence, each at its own fixed point.
+
+    The wheels hold a tenth of the inertia of a light robot.
+    """
     rng = np.random.default_rng(100 + seed)
-    problem, floor = random_problem(seed), None
+    problem = random_problem(seed)
     if seed % 2:
         problem = replace(with_offset_load(problem, seed), foot_plate=0.0084)
+        maneuvers = problem.requirement.maneuvers
+        reserves = dict.fromkeys((m.name for m in maneuvers), ManeuverReserve(demand=1.3))
+        problem = replace(problem, requirement=replace(problem.requirement, reserves=reserves))
+    robot = problem.robot
+    robot = MassProperties(share * robot.mass, robot.com, share * robot.inertia)
+    problem = replace(problem, robot=robot)
     if layout != PAIR:
         place = place_around((0.0, 0.0, 0.1), layout)
         problem = replace(problem, layout=layout, place=place, incidence=layout.angle)

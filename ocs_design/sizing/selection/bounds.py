@@ -227,22 +227,42 @@ def bound_task(
     layout: Layout,
 ) -> WheelBound:
     """The least that a maneuver requires of n trunks' wheels at k intervals, shape (n, k, ...)."""
-    inertia = column(least.inertia)
-    slew = requirement.slew(maneuver, TiltInertia.uncoupled(inertia.diagonal))
+    inertia, spread = maneuver.turned(column(least.inertia)), least.spread[:, None]
+    slews = [
+        requirement.slew(maneuver, TiltInertia(inertia.diagonal, product))
+        for product in (0.0 * spread, inertia.product - spread, inertia.product + spread)
+    ]
+    swept = _least_magnitude(*(slew.swept for slew in slews))
+    momentum = _least_magnitude(*(slew.momentum for slew in slews))
+    uncoupled = slews[0]
+    # Over an interval, each axis is least at one of the ends.
     ends = np.abs(layout.axes(np.array(intervals)))[..., :2, :]
+    reached = (ends.max(axis=-1) > OUT_OF_REACH).all(axis=1)
     return WheelBound(
-        swept=slew.swept,
-        momentum=slew.momentum,
-        duration=slew.duration,
+        # What coupling alone requires about an axis is not required where that axis is left free.
+        swept=np.where(reached | (uncoupled.swept != 0.0), swept, 0.0),
+        momentum=np.where(reached | (uncoupled.momentum != 0.0), momentum, 0.0),
+        duration=uncoupled.duration,
         inertia=inertia,
         axes=np.stack([layout.hull(*interval) for interval in intervals]),
-        turn=np.asarray(maneuver.turn),
-        spread=least.spread[:, None],
-        # Over an interval, each axis is least at one of the ends.
-        reached=(ends.max(axis=-1) > OUT_OF_REACH).all(axis=1),
-        initial_speed=slew.initial_speed,
-        one_way=slew.one_way,
+        spread=spread,
+        reached=reached,
+        initial_speed=uncoupled.initial_speed,
+        one_way=uncoupled.one_way,
     )
+
+
+def _least_magnitude(
+    uncoupled: FloatArray, least_coupled: FloatArray, most_coupled: FloatArray
+) -> FloatArray:
+    """Least magnitude of inertia times a turn or a rate, which is linear in the coupling.
+
+    More inertia adds to it in the direction of the turn, which is that without coupling; about an
+    axis without a turn there is the coupling alone.
+    """
+    sense = np.where(uncoupled == 0.0, np.sign(most_coupled), np.sign(uncoupled))
+    least: FloatArray = np.maximum(np.minimum(sense * least_coupled, sense * most_coupled), 0.0)
+    return least
 
 
 def least_inertia(
