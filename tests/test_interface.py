@@ -8,6 +8,7 @@ from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
+import numpy as np
 import pytest
 from fronts import make_front, task_by_hand
 from stories import design, story
@@ -23,7 +24,9 @@ from ocs_design import (
     read_robot,
     read_specification,
     specify,
+    validate_design,
 )
+from ocs_design.common.errors import UsageError
 from ocs_design.common.files import to_json
 from ocs_design.report.html.notebook import as_html
 from ocs_design.report.text.console import Steps
@@ -90,6 +93,27 @@ def test_a_specification_in_python_equals_that_in_a_file():
         maneuver=[drop],
     )
     assert toml(specified) == toml(parse_specification(text, "the file"))
+
+
+def test_numbers_of_numpy_are_those_of_python():
+    from_numpy = specify(
+        "a.urdf",
+        supply={"voltage": np.arange(24, 48, 6)[0]},
+        flywheel={"r_max": np.float32(0.25)},
+        ocs={"position": np.array([0.0, 0.0625, 0.5])},
+    )
+    plain = specify(
+        "a.urdf",
+        supply={"voltage": 24},
+        flywheel={"r_max": 0.25},
+        ocs={"position": (0.0, 0.0625, 0.5)},
+    )
+    assert from_numpy == plain
+
+
+def test_a_negative_seed_is_refused(folder):
+    with pytest.raises(UsageError, match="--seed -1: must be a whole number from 0"):
+        validate_design(folder, samples=1, seed=-1)
 
 
 def test_all_faults_of_a_specification_are_reported():

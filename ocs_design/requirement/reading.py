@@ -6,6 +6,8 @@ from pathlib import Path
 from reprlib import repr as shortened
 from typing import Any
 
+import numpy as np
+
 from ocs_design.common.errors import SpecificationError
 from ocs_design.common.files import AnyPath, TextKind, comparable_name
 from ocs_design.common.units import STANDARD_GRAVITY
@@ -81,7 +83,9 @@ def specification_of(source: Specification | AnyPath) -> Specification:
 
 
 def _plain(value: object) -> object:
-    """Value as a TOML file would have it: paths as text, tuples as lists."""
+    """Value as a TOML file would have it: paths as text, tuples as lists, NumPy's as Python's."""
+    if isinstance(value, np.ndarray | np.generic):
+        value = value.tolist()
     if isinstance(value, Mapping):
         return {name: _plain(entry) for name, entry in value.items()}
     if isinstance(value, list | tuple):

@@ -32,9 +32,10 @@ def robot_by_hand(
         com: centre of mass in B [m].
         name: of the robot.
     """
-    if len(inertia) not in {3, 6}:
+    if np.shape(inertia) not in {(3,), (6,)}:
+        given = " x ".join(map(str, np.shape(inertia))) or "one"
         raise UsageError(
-            f"an inertia has 3 or 6 numbers, not {len(inertia)}",
+            f"an inertia has 3 or 6 numbers, not {given}",
             hint="give IXX,IYY,IZZ or IXX,IYY,IZZ,IXY,IXZ,IYZ in kg m^2",
         )
     xx, yy, zz, xy, xz, yz = (*inertia, 0.0, 0.0, 0.0)[:6]

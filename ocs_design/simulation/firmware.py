@@ -253,14 +253,7 @@ def write_controller(
     targets = targets_of(flown, period)
     function, constants, columns = law_function(flown, list(chain(*targets)), period)
     counts = [len(world_targets) for world_targets in targets]
-    plain = [re.sub(r"[^A-Z0-9]+", "_", maneuver.upper()).strip("_") for maneuver in worlds]
-    # A constant in C for each maneuver.
-    identifiers = [
-        f"OCS_{name_in_c}"
-        if name_in_c and plain.count(name_in_c) == 1
-        else f"OCS_{name_in_c or 'MANEUVER'}_{i}"
-        for i, name_in_c in enumerate(plain)
-    ]
+    identifiers = _identifiers(worlds)
     values = {
         "name": name,
         "wheels": str(function.size1_out(0)),
@@ -288,6 +281,24 @@ def write_controller(
     }
     for template, file in _FILES.items():
         (folder / file.format(name)).write_bytes(fill(template, values).encode())
+
+
+_HEADER_WORDS = {"WHEELS", "PERIOD", "MANEUVERS", "CONTROLLER_H"}
+"""Words of the header's own constants, which no maneuver may have."""
+
+
+def _identifiers(maneuvers: Iterable[str]) -> list[str]:
+    """Constant in C of each maneuver: its name, with its index where that alone is not distinct."""
+    plain = [re.sub(r"[^A-Z0-9]+", "_", name.upper()).strip("_") for name in maneuvers]
+    taken, identifiers = {*plain, *_HEADER_WORDS}, []
+    for index, name in enumerate(plain):
+        word = name
+        if not name or plain.count(name) > 1 or name in _HEADER_WORDS:
+            word = f"{name or 'MANEUVER'}_{index}"
+            while word in taken:
+                word += "X"
+        identifiers.append(f"OCS_{word}")
+    return identifiers
 
 
 _FILES = {

@@ -76,6 +76,8 @@ class _Request:
                 raise UsageError(message, hint=hint)
 
         refuse(len(given) > 1, f"{' and '.join(given)} exclude each other", "give one")
+        seed = self.specified.validation.seed
+        refuse((seed or 0) < 0, f"--seed {seed}: must be a whole number from 0")
         refuse((self.sample or 0) < 0, f"--sample {self.sample}: must be a whole number from 0")
         refuse(
             certifies and self.flies_one_sample,

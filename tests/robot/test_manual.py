@@ -97,6 +97,8 @@ def test_unphysical_mass_properties_are_refused_with_their_values(mass, inertia,
 def test_an_inertia_has_three_or_six_numbers():
     with pytest.raises(UsageError, match="not 4"):
         robot_by_hand(2.5, (1.0, 1.0, 1.0, 0.0))
+    with pytest.raises(UsageError, match="not 3 x 3"):
+        robot_by_hand(2.5, np.diag(SOLO12))
 
 
 def test_a_robot_denser_than_tungsten_is_refused_as_a_wrong_unit():

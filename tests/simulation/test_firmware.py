@@ -193,10 +193,17 @@ def test_it_allocates_nothing_and_takes_little_stack(written):
     assert 0 < max(stack) <= 1024
 
 
-def test_maneuver_names_become_distinct_identifiers(solo12, tmp_path):
+@pytest.mark.parametrize(
+    "names",
+    [
+        ["*/ übung", "Push 1", "push-1", "§"],
+        ["wheels", "period", "maneuvers", "controller h"],
+        ["push", "Push", "push 1", "push 0"],
+    ],
+)
+def test_maneuver_names_become_distinct_identifiers(names, solo12, tmp_path):
     device = paper_device()
     world = WorldBuilder(solo12, device).flight(default_maneuvers(solo12)[0], Wheels.ACTIVE)
-    names = ["*/ übung", "Push 1", "push-1", "§"]
     worlds = dict.fromkeys(names, world)
     write_controller("solo12", worlds, tmp_path, joints=joint_names(device), period=PERIOD)
     header = (tmp_path / "solo12_ocs_controller.h").read_text()
