@@ -5,16 +5,17 @@ from dataclasses import replace
 import numpy as np
 from wheels import EC45, PAPER_WHEEL, driven_device, geared, paper_device
 
-from ocs_design.actuation.motor import DIRECT, BoltCircle, Face, GearRoom, Mounting
+from ocs_design.actuation.fasteners import BoltCircle
+from ocs_design.actuation.motor import DIRECT, Face, GearRoom, Mounting
 from ocs_design.catalogue.motors import motor
-from ocs_design.device.device import Device, Module, Web
-from ocs_design.device.solids import foot_of
+from ocs_design.device.device import Device, Module
 from ocs_design.parts.carrier_plate import CarrierPlate, Mast
 from ocs_design.parts.module import carrier_of
 from ocs_design.parts.moments import cylinder_mass
 from ocs_design.parts.motor_mount import hub_of
 from ocs_design.parts.rim import WEB_THICKNESS
 from ocs_design.parts.solids import Carrier
+from ocs_design.parts.wheel import Web
 
 CAGED = motor("MN5212 KV340")
 FLAT = Mounting(0.004, stator=BoltCircle(0.02, 4, "M3"), stator_face=Face.OUTPUT)
@@ -63,7 +64,7 @@ def in_two_rows(plate: CarrierPlate, outwards: float) -> CarrierPlate:
 
 def with_plate(device: Device) -> Device:
     """The device on a plate; three of its screws have sleeves, two of them of equal length."""
-    (x, y, z), foot = device.modules[0].position.tolist(), foot_of(device)
+    (x, y, z), foot = device.modules[0].position.tolist(), device.foot
     radius, screws = foot.slot_radius + 0.0045, foot.slot_radius / 2**0.5
     plate = CarrierPlate(
         position=(x, 0.0, z - foot.wheel_height - 0.003), radius=radius, half_length=y + radius,

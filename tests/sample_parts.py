@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from ocs_design.actuation.fasteners import screw
-from ocs_design.actuation.motor import BoltCircle
+from ocs_design.actuation.fasteners import BoltCircle, screw
 from ocs_design.common.frames import Placement
 from ocs_design.parts.cage import Cage, cage_part
 from ocs_design.parts.foot import Foot, foot_part

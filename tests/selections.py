@@ -5,7 +5,8 @@ from dataclasses import replace
 import numpy as np
 from rims import STEEL
 
-from ocs_design.actuation.motor import DIRECT, BoltCircle, Face, Gear, GearRoom, Motor, Mounting
+from ocs_design.actuation.fasteners import BoltCircle
+from ocs_design.actuation.motor import DIRECT, Face, Gear, GearRoom, Motor, Mounting
 from ocs_design.actuation.supply import Supply
 from ocs_design.catalogue.materials import Material
 from ocs_design.requirement.device_sections import Envelope

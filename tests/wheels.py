@@ -7,9 +7,10 @@ import numpy as np
 
 from ocs_design.actuation.drive import Drive
 from ocs_design.common.arrays import FloatArray
-from ocs_design.device.device import Device, Flywheel, Module
+from ocs_design.device.device import Device, Module
 from ocs_design.device.layout import Layout, module_axes
 from ocs_design.parts.solids import Carrier
+from ocs_design.parts.wheel import Flywheel
 from ocs_design.requirement.froude import FroudeScale, default_maneuvers
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.robot.mass import MassProperties, combine

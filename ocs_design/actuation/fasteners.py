@@ -2,11 +2,11 @@
 
 from dataclasses import dataclass
 from enum import Enum
-from math import asin, ceil, inf, isfinite, pi, sqrt
+from math import asin, ceil, inf, isfinite, pi, sin, sqrt
 from typing import Annotated, TypeAlias
 
 from ocs_design.common.errors import PartError
-from ocs_design.common.ranges import OneOf
+from ocs_design.common.ranges import Count, Length, LengthIfAny, OneOf
 
 
 @dataclass(frozen=True)
@@ -344,3 +344,70 @@ def screw(name: str) -> Screw:
         if known.name == name:
             return known
     raise PartError(f"no screw is called {name!r}", hint="there are " + ", ".join(SCREW_NAMES))
+
+
+@dataclass(frozen=True)
+class BoltCircle:
+    """Threads around a motor's axis, evenly spaced.
+
+    Attributes:
+        diameter: of the circle [m].
+        bolts: number of threads.
+        thread: of each, such as "M3".
+        screws: property class of their screws.
+        depth, depth_max: least and largest depth of engagement that the maker allows [m].
+        drawn: depth of the threads in a model that is not the maker's [m]; None: none is known.
+    """
+
+    diameter: Length
+    bolts: Count
+    thread: ThreadName
+    screws: ScrewClass = USUAL_CLASS
+    depth: LengthIfAny | None = None
+    depth_max: LengthIfAny | None = None
+    drawn: LengthIfAny | None = None
+
+    def __str__(self) -> str:
+        """Text such as `4 x M3 on 25 mm`."""
+        return f"{self.bolts} x {self.thread} on {1e3 * self.diameter:.4g} mm"
+
+    @property
+    def deepest(self) -> float:
+        """Largest engagement of its screws [m]: the maker's, else as a model draws; inf: unknown.
+
+        `OFF_BOTTOM` is left below the tips in what a model draws.
+        """
+        if self.depth_max is not None:
+            return self.depth_max
+        return inf if self.drawn is None else self.drawn - OFF_BOTTOM
+
+    @property
+    def preload_share(self) -> float:
+        """Share of its screws' preload that the thread holds: as its depth over the one needed."""
+        needed = CLASSES[self.screws].depth * screw(self.thread).diameter
+        return min(1.0, self.deepest / needed)
+
+    @property
+    def radius(self) -> float:
+        """Radius of the circle [m]."""
+        return self.diameter / 2.0
+
+    @property
+    def hole_radius(self) -> float:
+        """Radius of the holes that the screws pass through, ISO 273 medium [m]."""
+        return screw(self.thread).clearance_hole / 2.0
+
+    @property
+    def inside(self) -> float:
+        """Radius to the inner edge of the holes [m]."""
+        return self.radius - self.hole_radius
+
+    @property
+    def reach(self) -> float:
+        """Radius to the outer edge of the holes [m]."""
+        return self.radius + self.hole_radius
+
+    @property
+    def spacing(self) -> float:
+        """Material between neighbouring holes [m]."""
+        return 2.0 * (self.radius * sin(pi / self.bolts) - self.hole_radius)

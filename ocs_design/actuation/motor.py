@@ -18,18 +18,11 @@ The conventions of k_t differ only by these factors of the current; the torque i
 import math
 from dataclasses import dataclass
 from enum import StrEnum
-from math import inf, pi, sin
+from math import pi
 from typing import Annotated
 
-from ocs_design.actuation.fasteners import (
-    CLASSES,
-    OFF_BOTTOM,
-    USUAL_CLASS,
-    ScrewClass,
-    ThreadName,
-    screw,
-)
-from ocs_design.common.ranges import Count, Length, LengthIfAny, NotNegative, Positive, Unit
+from ocs_design.actuation.fasteners import BoltCircle
+from ocs_design.common.ranges import Length, LengthIfAny, NotNegative, Positive, Unit
 
 
 class TorqueConstantConvention(StrEnum):
@@ -106,73 +99,6 @@ class ShaftForm(StrEnum):
     """Shaft with a flat, for a set screw beside the clamp."""
     THREAD = "thread"
     """Threaded shaft, for a nut that presses the wheel against a shoulder."""
-
-
-@dataclass(frozen=True)
-class BoltCircle:
-    """Threads around a motor's axis, evenly spaced.
-
-    Attributes:
-        diameter: of the circle [m].
-        bolts: number of threads.
-        thread: of each, such as "M3".
-        screws: property class of their screws.
-        depth, depth_max: least and largest depth of engagement that the maker allows [m].
-        drawn: depth of the threads in a model that is not the maker's [m]; None: none is known.
-    """
-
-    diameter: Length
-    bolts: Count
-    thread: ThreadName
-    screws: ScrewClass = USUAL_CLASS
-    depth: LengthIfAny | None = None
-    depth_max: LengthIfAny | None = None
-    drawn: LengthIfAny | None = None
-
-    def __str__(self) -> str:
-        """Text such as `4 x M3 on 25 mm`."""
-        return f"{self.bolts} x {self.thread} on {1e3 * self.diameter:.4g} mm"
-
-    @property
-    def deepest(self) -> float:
-        """Largest engagement of its screws [m]: the maker's, else as a model draws; inf: unknown.
-
-        `OFF_BOTTOM` is left below the tips in what a model draws.
-        """
-        if self.depth_max is not None:
-            return self.depth_max
-        return inf if self.drawn is None else self.drawn - OFF_BOTTOM
-
-    @property
-    def preload_share(self) -> float:
-        """Share of its screws' preload that the thread holds: as its depth over the one needed."""
-        needed = CLASSES[self.screws].depth * screw(self.thread).diameter
-        return min(1.0, self.deepest / needed)
-
-    @property
-    def radius(self) -> float:
-        """Radius of the circle [m]."""
-        return self.diameter / 2.0
-
-    @property
-    def hole_radius(self) -> float:
-        """Radius of the holes that the screws pass through, ISO 273 medium [m]."""
-        return screw(self.thread).clearance_hole / 2.0
-
-    @property
-    def inside(self) -> float:
-        """Radius to the inner edge of the holes [m]."""
-        return self.radius - self.hole_radius
-
-    @property
-    def reach(self) -> float:
-        """Radius to the outer edge of the holes [m]."""
-        return self.radius + self.hole_radius
-
-    @property
-    def spacing(self) -> float:
-        """Material between neighbouring holes [m]."""
-        return 2.0 * (self.radius * sin(pi / self.bolts) - self.hole_radius)
 
 
 @dataclass(frozen=True)

@@ -13,10 +13,9 @@ from typing import Annotated
 import msgspec
 
 from ocs_design.actuation.drive import missing_figures
-from ocs_design.actuation.fasteners import CLASSES, LIGAMENT, SCREW_NAMES, USUAL_CLASS
+from ocs_design.actuation.fasteners import CLASSES, LIGAMENT, SCREW_NAMES, USUAL_CLASS, BoltCircle
 from ocs_design.actuation.motor import (
     DIRECT,
-    BoltCircle,
     Face,
     Motor,
     MotorFigures,

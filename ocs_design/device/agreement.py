@@ -19,7 +19,6 @@ from ocs_design.common.errors import OcsError
 from ocs_design.common.units import format_quantity
 from ocs_design.device.device import Device
 from ocs_design.device.records.design import OcsDesign
-from ocs_design.device.solids import foot_of
 from ocs_design.parts.module import carrier_of
 from ocs_design.parts.motor_mount import hub_of
 from ocs_design.parts.rim import HoleRing, hoop_stress, stored_energy, wheel_body
@@ -259,7 +258,7 @@ def _carrier_figures(device: Device) -> Iterator[_Figure]:
     )
     parts = "motor, gear, housing and foot give"
     yield _Figure("ocs.carrier.mass", recorded.mass, computed.mass, "kg", parts)
-    foot = foot_of(device)
+    foot = device.foot
     for pedestal in device.pedestals:
         sizes = pedestal.base_radius, pedestal.slot_radius, pedestal.wheel_height
         foot_sizes = foot.base_radius, foot.slot_radius, foot.wheel_height

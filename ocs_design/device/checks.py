@@ -14,9 +14,10 @@ import numpy as np
 from ocs_design.common.errors import OcsError, SpecificationError
 from ocs_design.common.ranges import LARGEST_LENGTH, SMALLEST_LENGTH, ranges_of
 from ocs_design.common.units import format_quantity
-from ocs_design.device.device import Device, Flywheel
+from ocs_design.device.device import Device
 from ocs_design.device.records.flights import ControlRecord
 from ocs_design.parts.carrier_plate import CarrierPlate, Mast
+from ocs_design.parts.wheel import Flywheel
 from ocs_design.requirement.vocabulary import is_whole_steps
 from ocs_design.robot.mass import MassProperties
 

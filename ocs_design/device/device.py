@@ -1,75 +1,29 @@
 """The designed orientation control system, as frozen values."""
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
 from ocs_design.actuation.drive import Drive
+from ocs_design.actuation.motor import DIRECT
 from ocs_design.actuation.supply import Supply
 from ocs_design.common.arrays import FloatArray
-from ocs_design.common.ranges import Distance, Length, LengthIfAny, NotNegative, Positive, Signed
+from ocs_design.common.ranges import Distance, Length, Signed
+from ocs_design.common.records import recorded
 from ocs_design.common.units import format_quantity
 from ocs_design.device.layout import PAIR, Layout, outward_sign, standing_frames
+from ocs_design.device.records.device import OcsRecord
 from ocs_design.parts.carrier_plate import CarrierPlate
+from ocs_design.parts.foot import Foot, FootHold
+from ocs_design.parts.housing import Housing, housing_outer_radius
+from ocs_design.parts.motor_mount import DriveSolid, MotorMount, drive_cylinders, mount_of
 from ocs_design.parts.pedestal import Pedestal
-from ocs_design.parts.printed import PLATE_THICKNESS
-from ocs_design.parts.rim import NO_CUTS, RimCuts
-from ocs_design.parts.solids import Carrier
-from ocs_design.parts.wheel import Rim, Web, Wheel
+from ocs_design.parts.printed import LID_SCREW, PLATE_THICKNESS, WALL
+from ocs_design.parts.solids import NO_CARRIER, Carrier
+from ocs_design.parts.wheel import Flywheel
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.robot.mass import MassProperties, combine
-
-NO_CARRIER = Carrier(mass=0.0, axial_inertia=0.0, transverse_inertia=0.0)
-"""Carrier of the assumed motor, which is massless."""
-
-
-@dataclass(frozen=True)
-class Flywheel:
-    """A hollow cylinder on a web that spins about its z axis.
-
-    Attributes:
-        inner_radius, outer_radius, height: of the rim [m].
-        material: of the rim, name in the catalogue. density: [kg/m^3].
-        mass: of the whole wheel [kg].
-        spin_inertia: angular momentum about the spin axis per speed relative to the trunk,
-            including the motor's rotor [kg m^2].
-        transverse_inertia: of the wheel about any transverse axis through its centre of mass,
-            without the rotor [kg m^2].
-        hoop_stress: largest, at the bore, at the highest wheel speed [Pa].
-        stress_margin: yield strength over hoop stress; None if the strength is unknown.
-        stored_energy: at the highest wheel speed [J].
-        web: web and hub; None: massless spokes, or a ring around the motor's bell.
-        cuts: chamfers and balancing holes of the rim.
-    """
-
-    inner_radius: LengthIfAny
-    outer_radius: Length
-    height: Length
-    material: str
-    density: Positive
-    mass: Positive
-    spin_inertia: Positive
-    transverse_inertia: NotNegative
-    hoop_stress: NotNegative | None
-    stress_margin: Signed | None
-    stored_energy: NotNegative
-    web: Web | None = None
-    cuts: RimCuts = NO_CUTS
-
-    @property
-    def shape(self) -> Wheel:
-        """The wheel as made.
-
-        Raises:
-            PartError: it cannot be made.
-        """
-        size = self.inner_radius, self.outer_radius, self.height
-        return Wheel(Rim(*size, self.material, self.density, self.cuts), self.web)
-
-    @property
-    def rim_mass(self) -> float:
-        """Mass of the rim alone [kg]."""
-        return self.mass - (0.0 if self.web is None else self.web.mass)
 
 
 @dataclass(frozen=True, eq=False)
@@ -147,6 +101,15 @@ class Device:
     pedestals: tuple[Pedestal, ...] = ()
     on_bell: bool = False
 
+    @classmethod
+    def of_record(cls, record: OcsRecord, supply: Supply | None = None) -> "Device":
+        """The device exactly as designed; `supply` is its supply."""
+        modules = (
+            Module(module.name, np.array(module.axis), np.array(module.position))
+            for module in record.modules
+        )
+        return recorded(cls, record, modules=tuple(modules), supply=supply, layout=record.axes)
+
     @property
     def mass(self) -> float:
         """Mass of all modules (wheels, motors, gears, housings and feet) and of `supports` [kg]."""
@@ -161,6 +124,38 @@ class Device:
     def wheels_alone(self) -> bool:
         """Whether it consists only of wheels, without drives and mounts."""
         return self.carrier.mass == 0.0
+
+    @cached_property
+    def mount(self) -> MotorMount:
+        """Mount of the motor, as far as it is known and fits the housing's floor."""
+        motor, wheel, plate = self.motor, self.flywheel, self.foot_plate
+        mount = mount_of(motor, motor.gear_room, plate, on_bell=self.on_bell).around(wheel.height)
+        floor_radius = housing_outer_radius(wheel.outer_radius) - 2.0 * WALL
+        return mount if mount.holes.reach <= floor_radius else MotorMount(foot_plate=plate)
+
+    @cached_property
+    def foot(self) -> Foot:
+        """Foot of one module, with the housing on it, also around a motor in a ring."""
+        wheel, mount = self.flywheel, self.mount
+        height = max(wheel.height, mount.room)
+        housing = Housing(wheel.outer_radius, height, mount.holes, LID_SCREW, self.guard_wall)
+        return Foot(housing, self.foot_plate)
+
+    @cached_property
+    def foot_hold(self) -> FootHold:
+        """Hold of each foot; it tilts about the edge of its plate if that is within its own."""
+        foot, plate = self.foot, self.plate
+        edge = foot.base_radius if plate is None else min(foot.base_radius, plate.radius)
+        return FootHold.of(foot, self.module_mass, edge)
+
+    @cached_property
+    def drive_solids(self) -> tuple[DriveSolid, ...]:
+        """Gear, motor and cage as far as their sizes are known, behind the foot's plate."""
+        motor, rim_height = self.motor, self.foot.housing.rim_height
+        solids = drive_cylinders(motor, motor.gear_room, self.mount, rim_height)
+        # Files of older versions lack the motor's position behind a gear.
+        unknown = motor.gear != DIRECT.name and motor.gear_room is None
+        return tuple(solid for solid in solids if not (unknown and solid.name == "motor"))
 
     @property
     def supports(self) -> tuple[CarrierPlate | Pedestal, ...]:

@@ -8,12 +8,10 @@ from ocs_design.actuation.fasteners import LIGAMENT, BoltedJoint, Fastening, lon
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.catalogue.materials import Material, materials
 from ocs_design.common.units import STANDARD_GRAVITY, format_quantity
-from ocs_design.device.device import Device, Flywheel, Module
-from ocs_design.device.records.device import Margin
-from ocs_design.device.solids import foot_of, housing_of, motor_mount
+from ocs_design.device.device import Device, Module
+from ocs_design.device.records.flights import Margin
 from ocs_design.parts.bell import GLUE_GAP
 from ocs_design.parts.cage import floor_at_shock, heads_at_shock
-from ocs_design.parts.foot import FootHold
 from ocs_design.parts.guard import Containment, fragment_of
 from ocs_design.parts.joints import (
     BOND_SHARE,
@@ -45,7 +43,7 @@ from ocs_design.parts.motor_mount import bond_length, motor_front
 from ocs_design.parts.plate_strength import plate_screws_use
 from ocs_design.parts.printed import SHOCK, WASHER_HEIGHT, trunk_screws
 from ocs_design.parts.turning_rings import Ring, TurningRings, holed_peaks
-from ocs_design.parts.wheel import Web
+from ocs_design.parts.wheel import Flywheel, Web
 
 RIM_JOINT, SHAFT_JOINT = "rim joint", "shaft joint"
 WHEEL_STRESS = "largest stress of the wheel"
@@ -73,15 +71,8 @@ def burst_of(device: Device, speed: float | None = None) -> Containment:
         web_mass=web,
         wheel_speed=device.motor.top_speed if speed is None else speed,
     )
-    housing = housing_of(device)
+    housing = device.foot.housing
     return Containment.of(piece, housing.guard_radius, housing.guard_height)
-
-
-def foot_hold(device: Device) -> FootHold:
-    """Hold of each foot; on a plate it tilts about the plate's edge if that is within its own."""
-    foot, plate = foot_of(device), device.plate
-    edge = foot.base_radius if plate is None else min(foot.base_radius, plate.radius)
-    return FootHold.of(foot, device.module_mass, edge)
 
 
 def foot_screws(device: Device, module: Module) -> Fastening:
@@ -91,7 +82,7 @@ def foot_screws(device: Device, module: Module) -> Fastening:
     off: the next shorter ones, or cut ones where these have too little thread.
     """
     screws, plate = counted_foot_screws(device, module), device.plate
-    if foot_hold(device).washers:
+    if device.foot_hold.washers:
         screws = replace(screws, thickness=screws.thickness + WASHER_HEIGHT)
     if plate is None:
         return screws
@@ -129,7 +120,7 @@ def unheld_moment(device: Device, margins: Sequence[Margin]) -> float:
     """
     moments = (margin.demand for margin in margins if margin.name == BEARING_MOMENT)
     demand = max(moments, default=0.0)
-    return demand if demand > foot_hold(device).turning else 0.0
+    return demand if demand > device.foot_hold.turning else 0.0
 
 
 def joints_of(device: Device) -> tuple[Margin, ...]:
@@ -147,7 +138,7 @@ def joints_of(device: Device) -> tuple[Margin, ...]:
 
 def _shocks(device: Device) -> Iterator[Margin]:
     """Accelerations at which the module's mount breaks."""
-    module_mass, hold = device.module_mass, foot_hold(device)
+    module_mass, hold = device.module_mass, device.foot_hold
     mass_text = format_quantity(module_mass, "kg" if module_mass >= 1.0 else "g", digits=3)
     shock, end = f"a shock of {SHOCK / STANDARD_GRAVITY:.0f} g", "the foot, printed of PETG, breaks"
     if hold.heads_bear < hold.prints_bear:
@@ -157,13 +148,13 @@ def _shocks(device: Device) -> Iterator[Margin]:
     yield Margin(FOOT_SHOCK, SHOCK, capacity, "m/s2", note=note)
     plate = device.plate
     if plate is not None:
-        use = plate_screws_use(plate, module_mass, foot_of(device).wheel_height)
+        use = plate_screws_use(plate, module_mass, device.foot.wheel_height)
         count = len(plate.trunk)
         note = f"{shock} on all modules, until one of {count} {plate.thread} of class 8.8 breaks"
         if max(plate.sleeves) > 0.0:
             note += f", or a {'post' if plate.on_posts else 'sleeve'} gives way"
         yield Margin(SCREWS_SHOCK, SHOCK, SHOCK / use, "m/s2", note=note)
-    cage = motor_mount(device).cage
+    cage = device.mount.cage
     if cage is not None:
         drive, wheel = device.motor.mass or 0.0, device.flywheel.mass
         breaking_floor = floor_at_shock(cage, drive, wheel)
@@ -338,7 +329,7 @@ def _shaft_joints(device: Device, web: Web) -> Iterator[Margin]:
             )
         reserve = shear_torque(bolt, circle.bolts, circle.radius, circle.screws)
     elif mounting is not None and mounting.shaft_diameter is not None:
-        front = motor_front(motor_mount(device), device.flywheel.height)
+        front = motor_front(device.mount, device.flywheel.height)
         length = bond_length(mounting, web.hub.height, web.hub.chamfer, front)
         capacity = hub_joint(mounting, length)
         across = format_quantity(mounting.shaft_diameter, "mm")

@@ -7,7 +7,6 @@ import numpy as np
 
 from ocs_design.device.device import Device
 from ocs_design.device.joints import balance_of
-from ocs_design.device.solids import foot_of
 from ocs_design.parts.carrier_plate import CarrierPlate
 from ocs_design.parts.dog_bone import directions
 from ocs_design.parts.foot import stem_frequency
@@ -65,7 +64,7 @@ def resonances_of(device: Device) -> tuple[Resonance, ...]:
     """
     if device.wheels_alone:
         return ()
-    foot, mass = foot_of(device), device.module_mass
+    foot, mass = device.foot, device.module_mass
     lever = 1.5 * (foot.back - device.foot_plate / 2.0) / (foot.wheel_height - foot.base)
     modes = [("foot", foot_frequency(device), lever)]
     if device.pedestals:
@@ -99,7 +98,7 @@ def foot_frequency(device: Device, modulus: float = PETG.modulus) -> float:
     Args:
         device: with modules. modulus: of the feet's material [Pa].
     """
-    foot, carrier = foot_of(device), device.carrier
+    foot, carrier = device.foot, device.carrier
     mass = device.module_mass
     inertia = device.flywheel.transverse_inertia + float(carrier.inertia[0, 0])
     inverse_square = stem_frequency(foot, mass, inertia, modulus) ** -2
@@ -118,7 +117,7 @@ def _twisted_frequency(device: Device, plate: CarrierPlate) -> float:
 
     The wheel does not rotate with it about its own axis.
     """
-    foot, carrier = foot_of(device), device.carrier
+    foot, carrier = device.foot, device.carrier
     mass, inertia = device.module_mass, float(carrier.inertia[1, 1])
     _, tilt = _foot_compliances(device, plate)
     arm = foot.wheel_height + plate.thickness / 2.0

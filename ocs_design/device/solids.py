@@ -10,53 +10,15 @@ from ocs_design.common.frames import BACKWARDS, Placement
 from ocs_design.device.device import Device, Module
 from ocs_design.parts.carrier_plate import CarrierPlate
 from ocs_design.parts.dog_bone import directions
-from ocs_design.parts.foot import Foot
-from ocs_design.parts.housing import Housing, housing_outer_radius
-from ocs_design.parts.motor_mount import (
-    DriveSolid,
-    MotorMount,
-    drive_cylinders,
-    motor_front,
-    mount_of,
-)
+from ocs_design.parts.motor_mount import motor_front
 from ocs_design.parts.pedestal import Pedestal, strengthened
-from ocs_design.parts.printed import CLEARANCE, LID_SCREW, PANEL, TRUNK_SCREW, WALL
+from ocs_design.parts.printed import CLEARANCE, PANEL, TRUNK_SCREW
 from ocs_design.robot.probe import Drum
 
 DISC_SPACING = 0.5
 """Spacing of the discs that represent a plate's neck, relative to half its width."""
 
 _LEFT, _UP = np.eye(3)[1:]
-
-
-def motor_mount(device: Device) -> MotorMount:
-    """Mount of the motor, as far as it is known and fits the housing's floor."""
-    motor = device.motor
-    wheel, plate = device.flywheel, device.foot_plate
-    mount = mount_of(motor, motor.gear_room, plate, on_bell=device.on_bell).around(wheel.height)
-    floor_radius = housing_outer_radius(wheel.outer_radius) - 2.0 * WALL
-    return mount if mount.holes.reach <= floor_radius else MotorMount(foot_plate=plate)
-
-
-def housing_of(device: Device) -> Housing:
-    """Housing around one wheel, and around the motor if the wheel is on its bell."""
-    wheel, mount = device.flywheel, motor_mount(device)
-    height = max(wheel.height, mount.room)
-    return Housing(wheel.outer_radius, height, mount.holes, LID_SCREW, device.guard_wall)
-
-
-def foot_of(device: Device) -> Foot:
-    """Foot of one module, around the housing that it carries."""
-    return Foot(housing_of(device), device.foot_plate)
-
-
-def drive_solids(device: Device) -> tuple[DriveSolid, ...]:
-    """Gear, motor and cage as far as their sizes are known, behind the foot's plate."""
-    motor, mount = device.motor, motor_mount(device)
-    solids = drive_cylinders(motor, motor.gear_room, mount, housing_of(device).rim_height)
-    # Files of older versions lack the motor's position behind a gear.
-    unknown = motor.gear != DIRECT.name and motor.gear_room is None
-    return tuple(solid for solid in solids if not (unknown and solid.name == "motor"))
 
 
 def shaft_cut(device: Device) -> tuple[float, float]:
@@ -70,8 +32,8 @@ def shaft_cut(device: Device) -> tuple[float, float]:
     length = 0.0 if mounting is None else mounting.shaft_length or 0.0
     if web is None or length == 0.0 or device.motor.gear != DIRECT.name:
         return length, 0.0
-    housing = housing_of(device)
-    front = motor_front(motor_mount(device), housing.rim_height)
+    housing = device.foot.housing
+    front = motor_front(device.mount, housing.rim_height)
     hub_length = web.hub.height / 2.0 - front
     clear_length = housing.half_height - PANEL - CLEARANCE - front
     if length <= max(hub_length, clear_length):
@@ -90,11 +52,11 @@ def pedestal_of(device: Device, module: Module, plane: float | None = None) -> P
         plane: height of its supporting surface in B [m]; None: that of the lowest possible
             pedestal.
     """
-    foot, frame = foot_of(device), module.frame
+    foot, frame = device.foot, module.frame
     lean = acos(min(1.0, max(0.0, float(frame[2, 2]))))
     behind = [(-foot.housing.half_height, foot.wheel_height - foot.housing.radius)]
     behind += [
-        (solid.low, foot.wheel_height + solid.up - solid.radius) for solid in drive_solids(device)
+        (solid.low, foot.wheel_height + solid.up - solid.radius) for solid in device.drive_solids
     ]
     high = TRUNK_SCREW.head_height + CLEARANCE
     middle = max((high - up * cos(lean)) / sin(lean) - along for along, up in behind)
@@ -156,7 +118,7 @@ def module_solids(device: Device, module: Module) -> ModuleSolids:
     wheel = device.flywheel
     if device.wheels_alone:
         return ModuleSolids((Drum(module.position, module.axis, wheel.outer_radius, wheel.height),))
-    foot = foot_of(device)
+    foot = device.foot
     housing, tall = foot.housing, 2.0 * foot.housing.half_height
     down = foot.wheel_height - foot.base / 2.0
     _, outward, up = module.frame.T
@@ -170,7 +132,7 @@ def module_solids(device: Device, module: Module) -> ModuleSolids:
             solid.radius,
             solid.high - solid.low,
         )
-        for solid in drive_solids(device)
+        for solid in device.drive_solids
     ]
     return ModuleSolids((drum, *drive), (base,))
 

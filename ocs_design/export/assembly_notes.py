@@ -9,9 +9,9 @@ from ocs_design.actuation.motor import DIRECT, Face, GearRoom, Mounting
 from ocs_design.catalogue.motors import motors
 from ocs_design.common.units import STANDARD_GRAVITY, format_quantity
 from ocs_design.device.device import Device
-from ocs_design.device.joints import FLOOR_SHOCK, foot_hold, joints_of
+from ocs_design.device.joints import FLOOR_SHOCK, joints_of
 from ocs_design.device.resonances import DAMPING, foot_frequency, resonances_of
-from ocs_design.device.solids import drive_solids, foot_of, motor_mount, shaft_cut
+from ocs_design.device.solids import shaft_cut
 from ocs_design.export.device_parts import foot_holes, places, trunk_holes
 from ocs_design.export.drawing.wheel import BROKEN_EDGE, broken_edge_losses
 from ocs_design.parts.bell import BELL_SHARE
@@ -51,7 +51,7 @@ def drive_notes(device: Device) -> tuple[str, ...]:
     """Notes on motor and printed parts, one sentence each; none for wheels without motors."""
     if device.wheels_alone:
         return ()
-    motor, foot = device.motor, foot_of(device)
+    motor, foot = device.motor, device.foot
     if motor.gear != DIRECT.name:
         # Dimensions needed to design the mounting of motor and gear.
         room = motor.gear_room or GearRoom()
@@ -80,7 +80,7 @@ def drive_notes(device: Device) -> tuple[str, ...]:
 
 def _mounting_notes(mounting: Mounting, device: Device) -> Iterator[str]:
     """Notes on how the motor is fixed to plate and floor, and on a ring around its bell."""
-    stator, mount = mounting.stator, motor_mount(device)
+    stator, mount = mounting.stator, device.mount
     if stator is None:
         bare = mount.holes.pilot_radius == 0.0
         hole = format_quantity(2.0 * mount.holes.pilot_radius, "mm")
@@ -93,7 +93,7 @@ def _mounting_notes(mounting: Mounting, device: Device) -> Iterator[str]:
             "cage does not fit the housing's floor: make a bracket for it"
         )
     elif mount.holes.screws is None:
-        room = format_quantity(2.0 * foot_of(device).housing.inner_radius, "mm")
+        room = format_quantity(2.0 * device.foot.housing.inner_radius, "mm")
         unfit = f"the motor's screws, {stator}, do not fit the housing's floor of {room}"
         yield f"{unfit}: {_DRILL_FOR_IT}"
     bell, wheel = mount.bell, device.flywheel
@@ -126,7 +126,7 @@ def _shaft_notes(mounting: Mounting, device: Device) -> Iterator[str]:
             f"its end, so that {format_quantity(remaining, 'mm', digits=3)} protrude from the "
             "motor, before the motor is built in and with its bearings covered"
         )
-    web, mount = device.flywheel.web, motor_mount(device)
+    web, mount = device.flywheel.web, device.mount
     # A rotor in a cage reaches through plate and floor to the hub.
     if web is None or (mount.cage is not None and mounting.rotor is not None):
         return
@@ -160,7 +160,7 @@ def _overlap_notes(device: Device, foot: Foot) -> Iterator[str]:
     if foot.base_radius > room:
         yield _overlap("feet", foot.base_radius - room)
     across = sqrt(max(0.0, 1.0 - inwards**2))
-    behind = (solid.radius * across - solid.low * inwards for solid in drive_solids(device))
+    behind = (solid.radius * across - solid.low * inwards for solid in device.drive_solids)
     reach = max(behind, default=0.0)
     if reach > room:
         yield _overlap("motors", reach - room)
@@ -168,7 +168,7 @@ def _overlap_notes(device: Device, foot: Foot) -> Iterator[str]:
 
 def _landing_notes(device: Device, foot: Foot) -> Iterator[str]:
     """Notes on prints and screws too weak for a landing, and on speeds at which parts resonate."""
-    module, modes, hold = device.module_mass, resonances_of(device), foot_hold(device)
+    module, modes, hold = device.module_mass, resonances_of(device), device.foot_hold
     capacity = hold.prints_bear
     heavier = _milled_heavier(foot_part(foot))
     if capacity < SHOCK:
@@ -193,7 +193,7 @@ def _landing_notes(device: Device, foot: Foot) -> Iterator[str]:
     for joint in joints_of(device):
         if joint.name == FLOOR_SHOCK and joint.capacity is not None and joint.capacity < SHOCK:
             drum, _ = housing_parts(foot.housing)
-            cage = motor_mount(device).cage
+            cage = device.mount.cage
             parts = (drum,) if cage is None else (cage_part(cage), drum)
             yield (
                 "printed in PETG, cage and drum hold motor and wheel up to "
@@ -254,7 +254,7 @@ def trunk_notes(device: Device, robot: Robot) -> tuple[str, ...]:
         return trunk_threads(device), where
     top = float(box.position[2] + np.abs(box.rotation[2]) @ box.size)
     lowest = min(float(module.position[2]) for module in device.modules)
-    gap, stand = lowest - foot_of(device).wheel_height - top, "on its top"
+    gap, stand = lowest - device.foot.wheel_height - top, "on its top"
     if gap > ON_TOP:
         stand = f"{1e3 * gap:.1f} mm above its top, and what is between them is not designed"
     elif gap < -ON_TOP:
@@ -281,7 +281,7 @@ def trunk_threads(device: Device) -> str:
         return (
             f"the trunk needs threads {TRUNK_SCREW.name} for the feet's screws, which stand at 45 "
             "degrees to the lateral direction on a circle of "
-            f"{format_quantity(2.0 * foot_of(device).slot_radius, 'mm', digits=3)}; their "
+            f"{format_quantity(2.0 * device.foot.slot_radius, 'mm', digits=3)}; their "
             "places in the base frame are on cad/drilling.pdf"
         )
     at, longest, sleeved = ", ".join(places(trunk_holes(plate))), max(plate.sleeves), ""

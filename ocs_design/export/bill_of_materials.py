@@ -9,16 +9,14 @@ from pathlib import Path
 
 from ocs_design.actuation.fasteners import STEEL, Fastening
 from ocs_design.actuation.motor import DIRECT
-from ocs_design.device.device import Device, Flywheel
+from ocs_design.device.device import Device
 from ocs_design.device.joints import (
     bonded_on_shaft,
     counted_foot_screws,
-    foot_hold,
     foot_screws,
     unheld_moment,
 )
-from ocs_design.device.records.device import Margin
-from ocs_design.device.solids import foot_of, motor_mount
+from ocs_design.device.records.flights import Margin
 from ocs_design.export.assembly.content import slipping
 from ocs_design.export.assembly_notes import drive_notes
 from ocs_design.export.device_parts import BLOCK, pedestal_kinds, printed_parts, ring_fixture
@@ -38,7 +36,7 @@ from ocs_design.parts.printed import (
     WASHER_MASS,
 )
 from ocs_design.parts.rim import HoleRing
-from ocs_design.parts.wheel import Web
+from ocs_design.parts.wheel import Flywheel, Web
 
 COLUMNS = (
     *("part", "quantity", "material", "stock [mm]", "mass each [g]", "mass [g]"),
@@ -104,7 +102,7 @@ def bill_rows(device: Device, margins: Sequence[Margin] = ()) -> Sequence[BillRo
         rows.append(BillRow(f"gear {motor.gear}", count, "", "", motor.gear_mass, remark, source))
     printed = device.carrier.mass - motor.mass - motor.gear_mass - motor.controller_mass
     if printed > _MASSLESS:
-        foot, housing, mount = foot_of(device), foot_of(device).housing, motor_mount(device)
+        foot, housing, mount = device.foot, device.foot.housing, device.mount
         drum, lid, base, *caged = (part.mass_properties().mass for part in printed_parts(device))
         size = f"{_mm(2.0 * housing.radius)} x {_mm(2.0 * housing.half_height)}"
         made = f"3-D print, wall {_mm(WALL)}, floor and lid {_mm(PANEL)}, "
@@ -251,7 +249,7 @@ def _unweighed_rows(device: Device, margins: Sequence[Margin]) -> Iterator[BillR
             "follow its maker's sheet"
         )
         yield BillRow("retaining compound", 1, "", "", 0.0, where)
-    if foot_hold(device).washers:
+    if device.foot_hold.washers:
         count = len(device.modules) * TRUNK_SCREW_COUNT
         longer = (
             foot_screws(device, at).mass - counted_foot_screws(device, at).mass
@@ -266,7 +264,7 @@ def _unweighed_rows(device: Device, margins: Sequence[Margin]) -> Iterator[BillR
     if unheld_moment(device, margins):
         where = "through a foot's base into what it stands on; not in the mass"
         yield BillRow("pin of 3 mm", len(device.modules), "steel", "", 0.0, where)
-    screwed = (ring.fastening for ring in motor_mount(device).screwed)
+    screwed = (ring.fastening for ring in device.mount.screwed)
     if any(not fastening.joint.in_print for fastening in screwed):
         where = "medium strength, removable; screws in metal only: it attacks prints"
         yield BillRow("threadlocker", 1, "", "", 0.0, where)

@@ -8,8 +8,7 @@ from math import copysign, sqrt
 import numpy as np
 
 from ocs_design.actuation.fasteners import Fastening
-from ocs_design.device.device import Device, Flywheel
-from ocs_design.device.solids import foot_of, motor_mount
+from ocs_design.device.device import Device
 from ocs_design.parts.bell import fixture_part
 from ocs_design.parts.cage import cage_part
 from ocs_design.parts.carrier_plate import CarrierPlate, block_part, mast_part, plate_part
@@ -17,7 +16,7 @@ from ocs_design.parts.foot import foot_part
 from ocs_design.parts.housing import guard_ring, housing_parts
 from ocs_design.parts.pedestal import Pedestal, pedestal_part
 from ocs_design.parts.solids import Part
-from ocs_design.parts.wheel import wheel_parts
+from ocs_design.parts.wheel import Flywheel, wheel_parts
 
 BLOCK = "block"
 """Name, in files and pictures, of the block shaped to the trunk."""
@@ -45,7 +44,7 @@ def plate_pieces(device: Device) -> Mapping[str, Part]:
 
 def ring_fixture(device: Device) -> Part | None:
     """Fixture that centres a ring on its bell while the glue sets; None without a bonded ring."""
-    bell, wheel = motor_mount(device).bell, device.flywheel
+    bell, wheel = device.mount.bell, device.flywheel
     return None if bell is None else fixture_part(bell, wheel.outer_radius, wheel.height)
 
 
@@ -53,7 +52,7 @@ def metal_pieces(device: Device) -> Mapping[str, Part]:
     """Plate under the feet, mast, block and guard ring by file name, if there are any."""
     if not device.guard_wall:
         return plate_pieces(device)
-    return {**plate_pieces(device), "guard_ring": guard_ring(foot_of(device).housing)}
+    return {**plate_pieces(device), "guard_ring": guard_ring(device.foot.housing)}
 
 
 def foot_holes(device: Device) -> Mapping[str, tuple[tuple[float, float], ...]]:
@@ -62,7 +61,7 @@ def foot_holes(device: Device) -> Mapping[str, tuple[tuple[float, float], ...]]:
     They are at 45 degrees to the lateral direction, on the wheel axis's side of it. Modules that
     are not upright have none.
     """
-    offset, holes = foot_of(device).slot_radius / sqrt(2.0), {}
+    offset, holes = device.foot.slot_radius / sqrt(2.0), {}
     stands = device.layout.stands(device.incidence)
     for module in compress(device.modules, stands):
         slope = copysign(1.0, float(module.axis[0] * module.axis[1]))
@@ -117,7 +116,7 @@ def printed_parts(device: Device) -> tuple[Part, ...]:
 
     They have the motor's holes if these are known and fit.
     """
-    foot, cage = foot_of(device), motor_mount(device).cage
+    foot, cage = device.foot, device.mount.cage
     caged = () if cage is None else (cage_part(cage),)
     return (*housing_parts(foot.housing), foot_part(foot), *caged)
 

@@ -11,7 +11,6 @@ from dataclasses import dataclass, replace
 from ocs_design.actuation.fasteners import Screw
 from ocs_design.common.units import MILLIMETRES, format_quantity, round_outwards
 from ocs_design.device.joints import foot_screws
-from ocs_design.device.solids import foot_of
 from ocs_design.export.device_parts import foot_holes, trunk_holes
 from ocs_design.export.drawing import sheet
 from ocs_design.export.drawing.sheet import Area, Circle, Item, Lettering, Line, Point, Polyline
@@ -70,7 +69,7 @@ def drilling_of(subject: Subject) -> Drilling | None:
     device = subject.device
     if device.wheels_alone:
         return None
-    plate, foot, standing = device.plate, foot_of(device), foot_holes(device)
+    plate, foot, standing = device.plate, device.foot, foot_holes(device)
     feet = [place for places in standing.values() for place in places]
     pedestals = [
         place for pedestal in device.pedestals for place in pedestal.in_base(pedestal.holes)

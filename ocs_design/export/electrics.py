@@ -7,7 +7,7 @@ from ocs_design.actuation.drive import Drive
 from ocs_design.actuation.motor import TorqueConstantConvention, six_step_current
 from ocs_design.common.units import rpm, significant
 from ocs_design.device.device import Device
-from ocs_design.device.records.device import Margin
+from ocs_design.device.records.flights import Margin
 
 VOLTAGE_RESERVE = 1.2
 """Rated voltage of controllers relative to the bus voltage: a full battery is 5 % above its nominal

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from ocs_design.common.arrays import Vector
     from ocs_design.device.device import Device
     from ocs_design.device.records.design import OcsDesign
-    from ocs_design.device.records.device import Buildable, Margin
+    from ocs_design.device.records.flights import Buildable, Margin
     from ocs_design.robot.robot import Mount, Robot
 
 Notes: TypeAlias = tuple[str, ...]

@@ -10,11 +10,12 @@ from pathlib import Path
 import numpy as np
 
 from ocs_design.common.units import MILLIMETRES
-from ocs_design.device.device import Device, Flywheel
+from ocs_design.device.device import Device
 from ocs_design.export.device_parts import metal_pieces, wheel_pieces
 from ocs_design.export.formats import Notes, Subject
 from ocs_design.export.meshes import Mesh, merged, part_mesh
 from ocs_design.export.visuals import WHEEL_MESH, still_meshes
+from ocs_design.parts.wheel import Flywheel
 
 METRES = 1.0
 """Units per metre in the meshes of robot files."""

@@ -14,12 +14,11 @@ import numpy as np
 from ocs_design.common.frames import Placement
 from ocs_design.device.bodies import STEEL, carrier_placement
 from ocs_design.device.device import Device, Module
-from ocs_design.device.solids import drive_solids, foot_of, motor_mount
 from ocs_design.export.meshes import Color, Mesh, merged, part_mesh
 from ocs_design.parts.cage import Cage, cage_part
 from ocs_design.parts.carrier_plate import CarrierPlate, plate_bodies
 from ocs_design.parts.dog_bone import directions
-from ocs_design.parts.foot import Foot, foot_part
+from ocs_design.parts.foot import Foot, cage_placement, foot_part
 from ocs_design.parts.housing import guard_ring, housing_parts
 from ocs_design.parts.pedestal import Pedestal, pedestal_part
 from ocs_design.parts.solids import ORIGIN, Part
@@ -81,7 +80,7 @@ def still_meshes(device: Device) -> Mapping[Path, Mesh]:
     """Meshes of carrier, plate and pedestals used by visuals; none for a massless carrier."""
     meshes: dict[str, Mesh] = {}
     if not device.wheels_alone:
-        meshes |= _carrier_meshes(foot_of(device), motor_mount(device).cage)
+        meshes |= _carrier_meshes(device.foot, device.mount.cage)
     under = {
         "plate": () if device.plate is None else plate_bodies(device.plate),
         "pedestal": ((pedestal_part(one), one.placement) for one in device.pedestals),
@@ -117,7 +116,7 @@ def still_visuals(device: Device, module: Module | None) -> tuple[Visual, ...]:
         return tuple(_mesh(name, ORIGIN) for name, there in under.items() if there)
     if device.wheels_alone:
         return ()
-    foot, turn, cage = foot_of(device), carrier_placement(module), motor_mount(device).cage
+    foot, turn, cage = device.foot, carrier_placement(module), device.mount.cage
     visuals = [_mesh("housing", turn), _mesh("foot", turn @ foot.placement)]
     if cage is not None:
         visuals.append(_mesh("cage", turn @ cage_placement(foot, cage)))
@@ -132,7 +131,7 @@ def plain_visuals(device: Device, module: Module | None) -> tuple[Visual, ...]:
         return (*plates, *boxes)
     if device.wheels_alone:
         return ()
-    foot, turn = foot_of(device), carrier_placement(module)
+    foot, turn = device.foot, carrier_placement(module)
     half_base, half_plate = float(foot.base) / 2.0, device.foot_plate / 2.0
     half_height, behind = (foot.wheel_height - foot.base) / 2.0, half_plate - foot.back
     base = turn @ foot.placement @ _shifted(0.0, 0.0, half_base)
@@ -203,14 +202,9 @@ def piece_color(device: Device, name: str) -> Color:
     return PRINT if printed else _DRIVE.get(name.removesuffix("_2"), STEEL)
 
 
-def cage_placement(foot: Foot, cage: Cage) -> Placement:
-    """Frame of the cage in the wheel's: its floor away from the foot's plate."""
-    return _shifted(0.0, 0.0, -foot.back - cage.length)
-
-
 def _drive(device: Device, turn: Placement, names: Collection[str]) -> Iterator[Visual]:
     """Motor, gear and cage as cylinders, if they are in `names`."""
-    for solid in drive_solids(device):
+    for solid in device.drive_solids:
         if solid.name in names:
             middle = turn @ _shifted(0.0, -solid.up, (solid.low + solid.high) / 2.0)
             yield _cylinder(solid.name, solid.radius, (solid.high - solid.low) / 2.0, middle)

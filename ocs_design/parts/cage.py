@@ -15,8 +15,7 @@ from functools import cached_property
 from math import pi, sqrt
 from typing import Generic
 
-from ocs_design.actuation.fasteners import screw
-from ocs_design.actuation.motor import BoltCircle
+from ocs_design.actuation.fasteners import BoltCircle, screw
 from ocs_design.common.arrays import Table
 from ocs_design.parts.moments import MassMoments, Real, round_body
 from ocs_design.parts.printed import (

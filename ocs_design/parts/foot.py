@@ -17,6 +17,7 @@ import numpy as np
 
 from ocs_design.actuation.fasteners import Fastening
 from ocs_design.common.frames import Placement
+from ocs_design.parts.cage import Cage
 from ocs_design.parts.carrier_plate import SLOT_EDGE
 from ocs_design.parts.housing import Housing, housing_outer_radius
 from ocs_design.parts.joints import FRICTION, TIGHTENING_FACTOR
@@ -168,6 +169,11 @@ class Foot(Generic[Real]):
         """The slot facing away from the other module; the other slot is opposite."""
         ends = pi / 2.0 - HALF_SWING, pi / 2.0 + HALF_SWING
         return ArcSlot(self.slot_radius, TRUNK_SCREW.clearance_hole, *ends)
+
+
+def cage_placement(foot: Foot[float], cage: Cage) -> Placement:
+    """Frame of the cage in the wheel's: its floor away from the foot's plate."""
+    return Placement(np.eye(3), np.array([0.0, 0.0, -foot.back - cage.length]))
 
 
 def foot_shock(foot: Foot[float], mass: float, edge: float | None = None) -> float:

@@ -14,12 +14,13 @@ from ocs_design.actuation.fasteners import (
     CLASSES,
     IN_PLASTIC,
     LIGAMENT,
+    BoltCircle,
     BoltedJoint,
     Fastening,
     longest_within,
     screw,
 )
-from ocs_design.actuation.motor import AnyMotor, BoltCircle, Face, GearRoom, Mounting
+from ocs_design.actuation.motor import AnyMotor, Face, GearRoom, Mounting
 from ocs_design.common.arrays import Table
 from ocs_design.parts.bell import Bell, bell_of
 from ocs_design.parts.cage import HALF_POST, NO_POSTS, Cage, Posts

@@ -10,8 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ocs_design.actuation.fasteners import STEEL, BoltedJoint, Fastening, Screw, screw
-from ocs_design.actuation.motor import BoltCircle
+from ocs_design.actuation.fasteners import STEEL, BoltCircle, BoltedJoint, Fastening, Screw, screw
 from ocs_design.common.frames import Placement
 from ocs_design.parts.moments import MassMoments, Real, point
 from ocs_design.parts.shapes import EAR_COUNT, Disc, Eared

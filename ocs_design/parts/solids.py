@@ -342,3 +342,7 @@ class Carrier:
     def mass_properties(self) -> MassProperties:
         """Mass properties in the module's frame."""
         return MassProperties(self.mass, np.array([0.0, self.along, self.up]), self.inertia)
+
+
+NO_CARRIER = Carrier(mass=0.0, axial_inertia=0.0, transverse_inertia=0.0)
+"""Carrier of the assumed motor, which is massless."""

@@ -7,7 +7,7 @@ from typing import TypeAlias
 
 from ocs_design.actuation.fasteners import LIGAMENT
 from ocs_design.common.errors import PartError
-from ocs_design.common.ranges import Length, Positive
+from ocs_design.common.ranges import Length, LengthIfAny, NotNegative, Positive, Signed
 from ocs_design.parts.rim import CHAMFER_SHARE, NO_CUTS, HoleRing, Hub, RimCuts
 from ocs_design.parts.solids import Part, Prism, Revolution, revolved
 
@@ -117,6 +117,55 @@ class Wheel:
     def width(self) -> float:
         """Largest extent along the axis [m]."""
         return max(self.rim.height, 0.0 if self.web is None else self.web.hub.height)
+
+
+@dataclass(frozen=True)
+class Flywheel:
+    """A hollow cylinder on a web that spins about its z axis.
+
+    Attributes:
+        inner_radius, outer_radius, height: of the rim [m].
+        material: of the rim, name in the catalogue. density: [kg/m^3].
+        mass: of the whole wheel [kg].
+        spin_inertia: angular momentum about the spin axis per speed relative to the trunk,
+            including the motor's rotor [kg m^2].
+        transverse_inertia: of the wheel about any transverse axis through its centre of mass,
+            without the rotor [kg m^2].
+        hoop_stress: largest, at the bore, at the highest wheel speed [Pa].
+        stress_margin: yield strength over hoop stress; None if the strength is unknown.
+        stored_energy: at the highest wheel speed [J].
+        web: web and hub; None: massless spokes, or a ring around the motor's bell.
+        cuts: chamfers and balancing holes of the rim.
+    """
+
+    inner_radius: LengthIfAny
+    outer_radius: Length
+    height: Length
+    material: str
+    density: Positive
+    mass: Positive
+    spin_inertia: Positive
+    transverse_inertia: NotNegative
+    hoop_stress: NotNegative | None
+    stress_margin: Signed | None
+    stored_energy: NotNegative
+    web: Web | None = None
+    cuts: RimCuts = NO_CUTS
+
+    @property
+    def shape(self) -> Wheel:
+        """The wheel as made.
+
+        Raises:
+            PartError: it cannot be made.
+        """
+        size = self.inner_radius, self.outer_radius, self.height
+        return Wheel(Rim(*size, self.material, self.density, self.cuts), self.web)
+
+    @property
+    def rim_mass(self) -> float:
+        """Mass of the rim alone [kg]."""
+        return self.mass - (0.0 if self.web is None else self.web.mass)
 
 
 def wheel_faults(wheel: Wheel) -> Iterator[str]:

@@ -13,7 +13,7 @@ from ocs_design.common.wording import (
     quantity,
 )
 from ocs_design.device.records.design import OcsDesign
-from ocs_design.device.records.device import Margin
+from ocs_design.device.records.flights import Margin
 from ocs_design.device.records.selection import SAVES_NOTHING, ReserveRecord
 from ocs_design.report.selection import best_drives, drive_name
 from ocs_design.report.table import Cell, CellTable, Rows, Tone, Toned, columns

@@ -15,7 +15,6 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.simulation.desaturation import WheelBrake
 from ocs_design.simulation.engine import Engine, Physics
 from ocs_design.simulation.imperfections import ImperfectDrives, Sensing
-from ocs_design.simulation.scene import ANCHOR, total_mass_properties
 from ocs_design.simulation.schedule import (
     FlightClock,
     LegReferences,
@@ -24,7 +23,7 @@ from ocs_design.simulation.schedule import (
     StoppedDrives,
 )
 from ocs_design.simulation.wheel_law import WheelLaw
-from ocs_design.simulation.world import World, start_states
+from ocs_design.simulation.world import ANCHOR, World, start_states, total_mass_properties
 
 
 @dataclass(frozen=True, eq=False)

@@ -16,8 +16,8 @@ import numpy as np
 
 from ocs_design.common import quaternions
 from ocs_design.common.arrays import FloatArray, stacked_columns
-from ocs_design.device.device import Flywheel
 from ocs_design.parts.printed import CLEARANCE
+from ocs_design.parts.wheel import Flywheel
 from ocs_design.simulation.motor_limits import MotorLimits
 
 _NOISE_CHANNELS = 5

@@ -7,7 +7,7 @@ import numpy as np
 
 from ocs_design.common.units import rpm
 from ocs_design.device.joints import SHAFT_JOINT, joints_of, rim_fit
-from ocs_design.device.records.device import Margin
+from ocs_design.device.records.flights import Margin
 from ocs_design.parts.joints import SERVICE
 from ocs_design.requirement.resolving import Resolved
 from ocs_design.simulation.run import Run

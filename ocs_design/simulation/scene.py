@@ -16,10 +16,10 @@ from ocs_design.export.physics import (
     meet_no_link,
 )
 from ocs_design.requirement.pivoted import Pivoted
-from ocs_design.robot.mass import MassProperties
 from ocs_design.robot.mujoco_bodies import quaternion
 from ocs_design.robot.mujoco_model import TIES, build_spec, trunk_body
 from ocs_design.robot.robot import Robot
+from ocs_design.simulation.world import ANCHOR
 
 FLOOR = "ocs_floor"
 
@@ -96,8 +96,6 @@ def robot_scene(robot: Robot) -> mujoco.MjSpec:
     return spec
 
 
-ANCHOR = "ocs_pivot"
-
 ANCHORED, _FREE_INERTIA = 1e7, 1e-10
 """Mass of an anchor, and its inertia about held axes, over the robot's, which set how little the
 pivot yields; its inertia about free axes."""
@@ -170,18 +168,3 @@ def compile_scene(
         flywheels = [model.body(name).id for name in flywheel_names(device)]
         model.geom_conaffinity[np.isin(model.geom_bodyid, flywheels)] = 0
     return model
-
-
-def total_mass_properties(model: mujoco.MjModel, data: mujoco.MjData) -> MassProperties:
-    """Robot and device, posed as in `data`, as one rigid body in the world, without an anchor."""
-    names = (model.body(index).name for index in range(model.nbody))
-    mass = np.array(
-        [0.0 if n == ANCHOR else m for n, m in zip(names, model.body_mass, strict=True)]
-    )
-    com = mass @ data.xipos / mass.sum()
-    axes, offset = data.ximat.reshape(-1, 3, 3), data.xipos - com
-    moments = np.where(mass[:, None] > 0.0, model.body_inertia, 0.0)
-    rotated = np.einsum("bij,bj,bkj->ik", axes, moments, axes)
-    squares = np.einsum("b,bi,bi->", mass, offset, offset)
-    outer = np.einsum("b,bi,bj->ij", mass, offset, offset)
-    return MassProperties(float(mass.sum()), com, rotated + squares * np.eye(3) - outer)

@@ -18,8 +18,7 @@ from ocs_design.export.physics import STEP
 from ocs_design.simulation.batch import Batch, Recording, joined
 from ocs_design.simulation.engine import Engine
 from ocs_design.simulation.run import Poses
-from ocs_design.simulation.scene import ANCHOR
-from ocs_design.simulation.world import World
+from ocs_design.simulation.world import ANCHOR, World
 
 Progress = Callable[[float], None]
 

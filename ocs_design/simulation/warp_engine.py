@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import MissingToolError, OcsError, extra_command
 from ocs_design.simulation.engine import Engine
-from ocs_design.simulation.scene import ANCHOR
+from ocs_design.simulation.world import ANCHOR
 
 SINGLE_GATE = 1e-4
 """Largest relative momentum error of a flight in single precision that is judged at all: 0.04 deg

@@ -14,6 +14,7 @@ from ocs_design.common import quaternions
 from ocs_design.common.arrays import FloatArray
 from ocs_design.jumping.jump import LegTrajectory
 from ocs_design.requirement.boundary import Push
+from ocs_design.robot.mass import MassProperties
 from ocs_design.robot.mujoco_bodies import quaternion
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.tree import Body, JointKind
@@ -201,3 +202,22 @@ def start_states(worlds: Sequence[World]) -> FloatArray:
         data.qpos[:], data.qvel[:] = world.qpos, world.qvel
         mujoco.mj_getState(world.model, data, state, kind)
     return states
+
+
+ANCHOR = "ocs_pivot"
+"""Name of the body that holds a pivot in place (`scene`)."""
+
+
+def total_mass_properties(model: mujoco.MjModel, data: mujoco.MjData) -> MassProperties:
+    """Robot and device, posed as in `data`, as one rigid body in the world, without an anchor."""
+    names = (model.body(index).name for index in range(model.nbody))
+    mass = np.array(
+        [0.0 if n == ANCHOR else m for n, m in zip(names, model.body_mass, strict=True)]
+    )
+    com = mass @ data.xipos / mass.sum()
+    axes, offset = data.ximat.reshape(-1, 3, 3), data.xipos - com
+    moments = np.where(mass[:, None] > 0.0, model.body_inertia, 0.0)
+    rotated = np.einsum("bij,bj,bkj->ik", axes, moments, axes)
+    squares = np.einsum("b,bi,bi->", mass, offset, offset)
+    outer = np.einsum("b,bi,bj->ij", mass, offset, offset)
+    return MassProperties(float(mass.sum()), com, rotated + squares * np.eye(3) - outer)

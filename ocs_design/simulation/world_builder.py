@@ -31,17 +31,10 @@ from ocs_design.simulation.engine import Engine
 from ocs_design.simulation.launch import flight_time, place, start_height, turn_of
 from ocs_design.simulation.motor_limits import MotorLimits
 from ocs_design.simulation.reference import NO_TURN, fit_turn
-from ocs_design.simulation.scene import (
-    JUMP_STEP,
-    Sensor,
-    Wheels,
-    compile_scene,
-    robot_scene,
-    total_mass_properties,
-)
+from ocs_design.simulation.scene import JUMP_STEP, Sensor, Wheels, compile_scene, robot_scene
 from ocs_design.simulation.trotting import waiting
 from ocs_design.simulation.wheel_law import Allocation, Gains, WheelLaw
-from ocs_design.simulation.world import Addresses, TrunkChain, World
+from ocs_design.simulation.world import Addresses, TrunkChain, World, total_mass_properties
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 from ocs_design.sizing.trajectory.motion import Trajectory
 

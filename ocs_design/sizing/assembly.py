@@ -5,10 +5,10 @@ from dataclasses import replace
 from ocs_design.actuation.drive import Drive
 from ocs_design.catalogue.materials import Material
 from ocs_design.common.arrays import FloatArray
-from ocs_design.device.device import Device, Flywheel, Module
+from ocs_design.device.device import Device, Module
 from ocs_design.device.layout import PAIR, Layout
 from ocs_design.parts.rim import NO_CUTS, Hub, RimCuts, hoop_stress, stored_energy, wheel_body
-from ocs_design.parts.wheel import Web
+from ocs_design.parts.wheel import Flywheel, Web
 from ocs_design.requirement.resolving import Resolved
 from ocs_design.sizing.bound.device_sizing import DeviceSizing
 from ocs_design.sizing.driven_wheel import DrivenWheel

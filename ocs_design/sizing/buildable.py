@@ -13,7 +13,7 @@ from ocs_design.device.joints import (
     WHEEL_STRESS,
     joints_of,
 )
-from ocs_design.device.records.device import Buildable, Margin, OpenPoint
+from ocs_design.device.records.flights import Buildable, Margin, OpenPoint
 from ocs_design.parts.joints import EPOXY
 from ocs_design.robot.meshes import lacks_mesh, unmeasured
 from ocs_design.robot.robot import Robot

@@ -14,7 +14,7 @@ from ocs_design.actuation.drive import speed_limit
 from ocs_design.common.arrays import FloatArray, finite_or_none
 from ocs_design.common.units import rpm
 from ocs_design.device.joints import BEARING_MOMENT
-from ocs_design.device.records.device import Margin
+from ocs_design.device.records.flights import Margin
 from ocs_design.parts.joints import OVERSPEED
 from ocs_design.sizing.driven_wheel import DrivenWheel
 from ocs_design.sizing.trajectory.motion import Trajectory

@@ -15,10 +15,10 @@ from ocs_design.common.wording import some_of
 from ocs_design.device.bodies import flywheel_name
 from ocs_design.device.device import Device
 from ocs_design.device.layout import PAIR, SIDES, Layout
-from ocs_design.device.records.device import Clearance, OpenPoint
+from ocs_design.device.records.device import Clearance
+from ocs_design.device.records.flights import OpenPoint
 from ocs_design.device.solids import (
     ModuleSolids,
-    foot_of,
     mast_solids,
     module_solids,
     pedestal_of,
@@ -230,7 +230,7 @@ def mounting_of(
             for module, contact in zip(device.modules, feet, strict=False)
             if contact.tilted
         ),
-        module_mass=device.flywheel.mass + device.carrier.mass,
+        module_mass=device.module_mass,
         pads=pads_needed(robot, feet_of(device), device.layout)
         if any(contact.held is False for contact in feet)
         else None,
@@ -357,10 +357,10 @@ def contacts_of(robot: Robot, device: Device) -> tuple[FootContact, ...]:
     Empty for wheels without feet. A foot whose wheel's axis is not horizontal stands on a pedestal,
     and that on the trunk; without a pedestal it has no support.
     """
-    if device.carrier.mass == 0.0:
+    if device.wheels_alone:
         return ()
     surface, plate, feet = trunk_surface(robot), device.plate, feet_of(device)
-    height, contacts = foot_of(device).wheel_height, []
+    height, contacts = device.foot.wheel_height, []
     for module, center in zip(device.modules, feet.centers, strict=True):
         name, underside = part_name("foot", module.name), float(module.position[2]) - height
         under = [pedestal for pedestal in device.pedestals if pedestal.module == module.name]

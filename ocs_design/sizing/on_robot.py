@@ -11,7 +11,6 @@ from ocs_design.common.units import format_quantity
 from ocs_design.device.device import Device
 from ocs_design.device.joints import burst_of
 from ocs_design.device.layout import Criterion
-from ocs_design.device.solids import foot_of, motor_mount
 from ocs_design.parts.cage import floor_at_shock
 from ocs_design.parts.foot import plate_thickness
 from ocs_design.robot.robot import Robot
@@ -252,11 +251,11 @@ class OnRobot:
         """The problem for the plate, the place and the feet of this device."""
         device = assemble_selected(best)
         module = best.modules_mass / len(best.layout)
-        cage, feet = motor_mount(device).cage, best.foot_plate
+        cage, feet = device.mount.cage, best.foot_plate
         floor = (
             0.0 if cage is None else floor_at_shock(cage, best.motor.mass or 0.0, best.wheel.mass)
         )
-        least_thickness = plate_thickness(foot_of(device), module, floor)
+        least_thickness = plate_thickness(device.foot, module, floor)
         # Thicker feet are a little heavier, so a little excess is tolerated.
         if not least_thickness <= feet <= least_thickness + _TOO_THICK:
             feet = least_thickness

@@ -16,15 +16,8 @@ from ocs_design.common.units import format_quantity
 from ocs_design.device.checks import device_warnings
 from ocs_design.device.layout import heading_drift
 from ocs_design.device.records.design import SCHEMA_VERSION, OcsDesign, Tool
-from ocs_design.device.records.device import (
-    Buildable,
-    Margin,
-    ModuleRecord,
-    MountingRecord,
-    OcsRecord,
-    ReachRecord,
-)
-from ocs_design.device.records.flights import SurvivalRecord, ValidationRecord
+from ocs_design.device.records.device import ModuleRecord, MountingRecord, OcsRecord, ReachRecord
+from ocs_design.device.records.flights import Buildable, Margin, SurvivalRecord, ValidationRecord
 from ocs_design.device.records.requirement import (
     AxisInertia,
     DemandRecord,

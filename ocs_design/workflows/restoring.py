@@ -35,7 +35,7 @@ def read_design_and_device(path: AnyPath) -> tuple[OcsDesign, Device]:
     """
     design = read_design(path)
     try:
-        device = design.ocs.device(design.supply)
+        device = Device.of_record(design.ocs, design.supply)
         check_device(device)
         if design.control is not None:
             check_control(design.control)

@@ -5,7 +5,8 @@ from importlib.resources import as_file, files
 
 import pytest
 
-from ocs_design.actuation.motor import BoltCircle, Face, Mounting, build_gaps
+from ocs_design.actuation.fasteners import BoltCircle
+from ocs_design.actuation.motor import Face, Mounting, build_gaps
 from ocs_design.catalogue.gears import gears, load_gears
 from ocs_design.catalogue.motors import implausible_values, load_motors, motors
 from ocs_design.common.errors import SpecificationError

@@ -10,15 +10,15 @@ from ocs_design.actuation.supply import Supply
 from ocs_design.common.errors import OcsError
 from ocs_design.common.ranges import Length, ranges_of
 from ocs_design.device.checks import check_device, device_warnings
-from ocs_design.device.device import Flywheel
+from ocs_design.device.device import Device
 from ocs_design.device.records.design import read_design
 from ocs_design.parts.carrier_plate import CarrierPlate, Mast
 from ocs_design.parts.pedestal import Pedestal
 from ocs_design.parts.rim import HoleRing, Hub
-from ocs_design.parts.wheel import Web
+from ocs_design.parts.wheel import Flywheel, Web
 from ocs_design.robot.mass import MassProperties
 
-DEVICE = read_design(Path(__file__).parents[1] / "data" / "design_0_1_0.json").ocs.device()
+DEVICE = Device.of_record(read_design(Path(__file__).parents[1] / "data" / "design_0_1_0.json").ocs)
 
 
 def test_a_designed_device_passes():

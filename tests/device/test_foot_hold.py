@@ -13,13 +13,11 @@ from ocs_design.actuation.fasteners import screw
 from ocs_design.device.joints import (
     BEARING_MOMENT,
     FOOT_SHOCK,
-    foot_hold,
     foot_screws,
     joints_of,
     unheld_moment,
 )
-from ocs_design.device.records.device import Margin
-from ocs_design.device.solids import foot_of
+from ocs_design.device.records.flights import Margin
 from ocs_design.export.assembly.booklet import chapters, piece_rows, screw_rows
 from ocs_design.export.assembly.content import Assembly
 from ocs_design.export.assembly.placed import module_pieces
@@ -46,7 +44,7 @@ def area_beside_slot(across):
 
 def pull_of_screw(device, mass):
     """Tension of the farther of two screws [N]; both stretch by their distance from the edge."""
-    foot = foot_of(device)
+    foot = device.foot
     edge = foot.base_radius if device.plate is None else device.plate.radius
     arms = edge + foot.slot_radius * np.array([1.0, -1.0])
     return mass * SHOCK * foot.wheel_height * arms[0] / (arms @ arms)
@@ -65,7 +63,7 @@ def test_the_area_under_a_head_is_reduced_by_the_slot(across, area):
 @pytest.mark.parametrize("mass", [0.3, 2.0, 12.0])
 def test_heads_of_screws_bear_a_landing_or_have_washers_or_a_note(mass, plated):
     device = device_with_module_mass(mass, plated)
-    hold, pull = foot_hold(device), pull_of_screw(device, mass)
+    hold, pull = device.foot_hold, pull_of_screw(device, mass)
     assert hold.pull == pytest.approx(pull)
     # Preloaded to half the yield pressure of PETG, a bare head would let the foot lift.
     assert hold.washers == (pull / area_beside_slot(5.5) > 47.0 / 2.0)
@@ -90,7 +88,7 @@ def test_the_torque_of_foot_screws_follows_from_the_area_beside_the_slot(mass):
     for words in (row.purpose, bought):
         assert ("ISO 7093-1 - 3" in words) == (mass == 2.0)
     length = int(re.search(r"x (\d+)$", row.designation)[1])
-    base = 1e3 * float(foot_of(assembly.device).base) + (0.8 if mass == 2.0 else 0.0)
+    base = 1e3 * float(assembly.device.foot.base) + (0.8 if mass == 2.0 else 0.0)
     # The next length would touch the trunk under 3 mm of plate at its upper limit of js15.
     assert length == (6 if mass == 2.0 else 5)
     thread = length - base
@@ -131,7 +129,7 @@ def test_foot_screws_do_not_reach_the_trunk_under_the_plate(base, length, cut):
 def test_a_foot_that_its_wheel_would_turn_is_pinned(share):
     """Friction of 0.1 under two screws at the least preload of a torque wrench, 1 / 1.6."""
     device = device_with_module_mass(0.3)
-    friction_moment = 0.1 * 2.0 * (23.5 * area_beside_slot(5.5)) / 1.6 * foot_of(device).slot_radius
+    friction_moment = 0.1 * 2.0 * (23.5 * area_beside_slot(5.5)) / 1.6 * device.foot.slot_radius
     margin = Margin(name=BEARING_MOMENT, demand=share * friction_moment, capacity=None, unit="N m")
     assert bool(unheld_moment(device, (margin,))) == (share > 1.0)
     steps = " ".join(

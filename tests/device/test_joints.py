@@ -7,13 +7,11 @@ import pytest
 from built_devices import DEVICES
 from wheels import EC45, PAPER_WHEEL, driven_device
 
-from ocs_design.actuation.fasteners import screw
-from ocs_design.actuation.motor import BoltCircle, Face, Mounting, ShaftForm
+from ocs_design.actuation.fasteners import BoltCircle, screw
+from ocs_design.actuation.motor import Face, Mounting, ShaftForm
 from ocs_design.catalogue.materials import material
-from ocs_design.device.device import Web
 from ocs_design.device.joints import balance_of, joints_of, rim_fit, wheel_rings, yield_margin
 from ocs_design.device.resonances import resonances_of
-from ocs_design.device.solids import foot_of, motor_mount
 from ocs_design.export.device_parts import printed_parts
 from ocs_design.export.meshes import part_manifold
 from ocs_design.parts.joints import friction_torque
@@ -22,6 +20,7 @@ from ocs_design.parts.pedestal import Pedestal, seat_compliance, strengthened
 from ocs_design.parts.plate_strength import plate_frequency
 from ocs_design.parts.rim import WEB_THICKNESS, Hub
 from ocs_design.parts.turning_rings import TurningRings
+from ocs_design.parts.wheel import Web
 
 STEEL, ALUMINIUM = material("steel-4140-normalized"), material("aluminium-6061-t6")
 HUB = Hub(0.0096, 0.005, 0.002, 4, 0.006, 0.0017, chamfer=0.2e-3)
@@ -81,7 +80,7 @@ def test_screws_of_a_plate_have_a_landing_shock_too():
 def test_the_landing_shock_that_the_floor_of_a_cage_withstands():
     """A plate under the moment of motor and wheel, clamped by the posts along half of its edge."""
     caged = DEVICES["caged"]
-    shock, cage = joints_by_name(caged)["landing shock, cage"], motor_mount(caged).cage
+    shock, cage = joints_by_name(caged)["landing shock, cage"], caged.mount.cage
     mass_moment = caged.motor.mass * cage.motor_length / 2.0 + caged.flywheel.mass * cage.seat
     circle = cage.holes.screws
     radius = circle.radius + screw(circle.thread).head_diameter / 2.0
@@ -149,7 +148,7 @@ def test_the_bond_is_as_long_as_the_shaft_in_the_hub(shaft_length, bond_length, 
     )
     bonded = device(mounting)
     bonded = replace(bonded, motor=replace(bonded.motor, diameter=0.0556, length=0.025))
-    assert motor_front(motor_mount(bonded), bonded.flywheel.height) == pytest.approx(-0.0035)
+    assert motor_front(bonded.mount, bonded.flywheel.height) == pytest.approx(-0.0035)
     joint = joints_by_name(bonded)["shaft joint"]
     assert joint.capacity == pytest.approx(capacity, abs=1e-3)
     assert f"over {bond_length} mm of its length in the hub" in joint.note
@@ -219,7 +218,7 @@ def test_a_pedestal_adds_a_mode_and_softens_that_of_the_foot():
     """Springs in series: inverse squares of their frequencies add up."""
     device = DEVICES["caged"]
     device = replace(device, motor=replace(device.motor, no_load_speed=3e5, speed_max=None))
-    (alone,), foot = resonances_of(device), foot_of(device)
+    (alone,), foot = resonances_of(device), device.foot
     seats = tuple(
         strengthened(
             Pedestal(foot.base_radius, foot.slot_radius, foot.wheel_height, lean, 0.04), 0.4

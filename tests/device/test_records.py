@@ -12,10 +12,10 @@ from wheels import EC45, EC45_BODY, geared
 from ocs_design.actuation.supply import Supply
 from ocs_design.common.errors import OcsError
 from ocs_design.common.files import to_json
-from ocs_design.device.device import NO_CARRIER
 from ocs_design.device.records.design import LARGEST, read_design
-from ocs_design.device.records.device import Buildable, Margin, OpenPoint
+from ocs_design.device.records.flights import Buildable, Margin, OpenPoint
 from ocs_design.device.records.selection import Alternative
+from ocs_design.parts.solids import NO_CARRIER
 
 FIRST_VERSION = Path(__file__).parents[1] / "data" / "design_0_1_0.json"
 """Written by `size examples/solo12.urdf --no-validate` of version 0.1.0, without motors."""

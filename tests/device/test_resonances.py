@@ -10,7 +10,6 @@ from built_devices import DEVICES
 
 from ocs_design.device.device import Device, Module
 from ocs_design.device.resonances import foot_frequency, resonances_of
-from ocs_design.device.solids import foot_of
 
 SHEAR_OF_PETG, RIGID = 1.8e9 / 2.7, 1e16
 """Shear modulus with a Poisson's ratio of 0.35, and modulus of rigid parts [Pa]."""
@@ -64,7 +63,7 @@ def frequencies(device, *, rigid_plate=False):
     Plate and stem of the foot are rows of beams, the base of the foot is rigid, and the module is a
     rigid body at the end.
     """
-    plate, foot, axis = device.plate, foot_of(device), device.modules[0].axis
+    plate, foot, axis = device.plate, device.foot, device.modules[0].axis
     up, forward = np.array([0.0, 0.0, 1.0]), np.cross(axis, [0.0, 0.0, 1.0])
     nodes, stiffnesses = [np.array([0.0, plate.support, 0.0])], []
 

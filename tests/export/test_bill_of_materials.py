@@ -8,12 +8,12 @@ from built_devices import DEVICES
 from wheels import EC45, EC45_BODY, PAPER_WHEEL, driven_device, geared, paper_device
 
 from ocs_design.actuation.motor import GearRoom
-from ocs_design.device.device import Web
-from ocs_design.device.records.device import Margin
+from ocs_design.device.records.flights import Margin
 from ocs_design.export.bill_of_materials import COLUMNS, bill_csv, bill_rows, plain
 from ocs_design.parts.module import Printed
 from ocs_design.parts.rim import HoleRing, Hub
 from ocs_design.parts.solids import Carrier
+from ocs_design.parts.wheel import Web
 
 GEAR_MASS = 0.02
 

@@ -10,11 +10,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 from wheels import EC45, PAPER_WHEEL, driven_device, geared, paper_device
 
-from ocs_design.actuation.motor import BoltCircle, Face, Mounting
+from ocs_design.actuation.fasteners import BoltCircle
+from ocs_design.actuation.motor import Face, Mounting
 from ocs_design.device.bodies import wheel_placement
-from ocs_design.device.device import Device, Web
+from ocs_design.device.device import Device
 from ocs_design.device.layout import Layout, LayoutName
-from ocs_design.device.solids import foot_of
 from ocs_design.export.assembly.content import Assembly
 from ocs_design.export.assembly.steps import module_steps
 from ocs_design.export.assembly_notes import device_notes, drive_notes
@@ -23,6 +23,7 @@ from ocs_design.export.meshes import part_manifold
 from ocs_design.export.visuals import still_visuals
 from ocs_design.parts.foot import foot_shock, plate_thickness
 from ocs_design.parts.rim import Hub, RimCuts
+from ocs_design.parts.wheel import Web
 
 WEB = Web("aluminium-6061-t6", 2710.0, 0.0015, 0.01, Hub(0.008, 0.005, 0.002))
 BACK_OF_PLATE = 0.005 + 0.002 + 0.0012 + 0.005
@@ -61,13 +62,13 @@ def test_feet_bear_the_shock_or_a_note_says_so(mass, share):
     """There is a note exactly where the plate does not bear the shock."""
     device = device_on(replace(FLAT, shaft_length=0.05))
     device = replace(device, carrier=replace(device.carrier, mass=mass))
-    thickness = plate_thickness(foot_of(device), mass + device.flywheel.mass)
+    thickness = plate_thickness(device.foot, mass + device.flywheel.mass)
     device = replace(device, foot_plate=0.005 + share * (thickness - 0.005))
-    limit = foot_shock(foot_of(device), mass + device.flywheel.mass) / 9.80665
+    limit = foot_shock(device.foot, mass + device.flywheel.mass) / 9.80665
     noted = "printed in PETG, the feet take" in notes(device)
     assert noted == (limit < 20.0)
     assert "mill them from 6061-T6" in notes(device) or not noted
-    if share == 1.0 and thickness < foot_of(device).stem:
+    if share == 1.0 and thickness < device.foot.stem:
         assert not noted
 
 

@@ -11,7 +11,6 @@ import pytest
 from robots import SOLO12
 from wheels import driven_device, stand_on_trunk
 
-from ocs_design.device.solids import foot_of
 from ocs_design.export.assembly_notes import trunk_notes
 from ocs_design.export.formats import Subject
 from ocs_design.export.robot_model import robot_model
@@ -79,7 +78,7 @@ def test_the_frame_is_located_by_the_ends_of_the_trunk(plated):
 def test_without_a_file_the_notes_locate_the_box_of_the_trunk(above, words):
     """A robot of 30 kg, whose box is 224 mm high, with its origin at the centre of mass."""
     robot, device = robot_by_hand(30.0, (0.55, 1.6, 1.9)), driven_device()
-    height = 0.5 * np.sqrt(6.0 * (0.55 + 1.6 - 1.9) / 30.0) + foot_of(device).wheel_height + above
+    height = 0.5 * np.sqrt(6.0 * (0.55 + 1.6 - 1.9) / 30.0) + device.foot.wheel_height + above
     modules = tuple(
         replace(module, position=np.array([*module.position[:2], height]))
         for module in device.modules

@@ -7,8 +7,8 @@ import pytest
 from built_devices import CAGED, FLAT, housed_device
 from wheels import PAPER_WHEEL
 
-from ocs_design.actuation.motor import BoltCircle, Mounting
-from ocs_design.device.solids import motor_mount
+from ocs_design.actuation.fasteners import BoltCircle
+from ocs_design.actuation.motor import Mounting
 from ocs_design.export.bill_of_materials import bill_csv, bill_rows
 from ocs_design.export.device_parts import printed_parts
 from ocs_design.parts.motor_mount import screwed_by_face
@@ -100,7 +100,7 @@ def test_the_hole_in_the_middle_leaves_a_wall_to_the_screws():
 def test_without_known_threads_there_is_a_hole_for_the_rotor():
     """A shaft of 4 mm turns in 6 mm; what is screwed to M2 on 12 mm has 2 mm of wall, 1 mm free."""
     rotor = Mounting(0.004, rotor=BoltCircle(0.012, 4, "M2"))
-    holes = [motor_mount(device_on(mount)).holes for mount in (None, Mounting(0.004), rotor)]
+    holes = [device_on(mount).mount.holes for mount in (None, Mounting(0.004), rotor)]
     assert [hole.reach for hole in holes] == pytest.approx([0.0, 0.003, 0.006 + 0.0012 + 0.003])
 
 

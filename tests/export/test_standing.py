@@ -15,7 +15,6 @@ from scipy.spatial.transform import Rotation
 from seats import TRUNK, TrunkOnly, expand_macro
 from wheels import EC45, driven_device, geared, paper_device
 
-from ocs_design.device.solids import foot_of
 from ocs_design.export.device_parts import printed_parts
 from ocs_design.export.glb import robot_glb
 from ocs_design.export.meshes import part_mesh
@@ -29,7 +28,7 @@ from ocs_design.robot.reader import read_robot
 ALPHA, LENGTH = np.radians(25.0), 0.021
 DRIVE = replace(EC45, diameter=0.043, length=LENGTH, mounting=FLAT)
 DEVICE = driven_device(ALPHA, DRIVE)
-FOOT = foot_of(DEVICE)
+FOOT = DEVICE.foot
 LEFT = DEVICE.modules[0]
 MIRROR = np.array([1.0, -1.0, 1.0])
 

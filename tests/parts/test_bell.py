@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from part_gaps import overlap_volume, turning_clearance
 
-from ocs_design.actuation.motor import BoltCircle, Face, Mounting
+from ocs_design.actuation.fasteners import BoltCircle
+from ocs_design.actuation.motor import Face, Mounting
 from ocs_design.catalogue.motors import motors
 from ocs_design.parts.bell import FIXTURE_FIT, FIXTURE_FLOOR, GLUE_GAP, bell_of, fixture_part
 from ocs_design.parts.joints import (

@@ -8,7 +8,8 @@ import trimesh
 from carrier_parts import UPRIGHT, carrier_parts, foot_for
 from subsets import fast_subset
 
-from ocs_design.actuation.motor import DIRECT, BoltCircle, Face, Motor, Mounting
+from ocs_design.actuation.fasteners import BoltCircle
+from ocs_design.actuation.motor import DIRECT, Face, Motor, Mounting
 from ocs_design.export.meshes import part_mesh
 from ocs_design.parts.cage import cage_part
 from ocs_design.parts.foot import foot_part

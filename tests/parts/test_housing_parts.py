@@ -10,7 +10,7 @@ from part_gaps import overlap_volume, turning_clearance
 from sample_parts import HOUSING, TWO_PIECES
 from subsets import fast_subset
 
-from ocs_design.actuation.motor import BoltCircle
+from ocs_design.actuation.fasteners import BoltCircle
 from ocs_design.common.errors import PartError
 from ocs_design.parts.cage import NO_POSTS
 from ocs_design.parts.housing import (

@@ -9,10 +9,9 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from wheels import PAPER_WHEEL
 
-from ocs_design.actuation.fasteners import LIGAMENT, SCREWS
-from ocs_design.actuation.motor import BoltCircle, Face, GearRoom, Mounting
+from ocs_design.actuation.fasteners import LIGAMENT, SCREWS, BoltCircle
+from ocs_design.actuation.motor import Face, GearRoom, Mounting
 from ocs_design.catalogue.motors import motor
-from ocs_design.device.device import Flywheel, Web
 from ocs_design.parts.moments import cylinder_mass
 from ocs_design.parts.motor_mount import (
     HUB_WALL,
@@ -25,7 +24,7 @@ from ocs_design.parts.motor_mount import (
 )
 from ocs_design.parts.rim import WEB_THICKNESS, Hub, wheel_body
 from ocs_design.parts.solids import total
-from ocs_design.parts.wheel import wheel_parts
+from ocs_design.parts.wheel import Flywheel, Web, wheel_parts
 
 FLAT = replace(motor("MN5212 KV340"), diameter=0.059, length=0.0335)
 AT_BACK = Mounting(0.004, None, BoltCircle(0.025, 4, "M3"), Face.BACK)

@@ -7,8 +7,7 @@ from hypothesis import strategies as st
 from part_gaps import overlap_volume, thinnest_wall, turning_clearance
 from sample_parts import ALUMINIUM, CAGE, FOOT, HOUSING, STEEL
 
-from ocs_design.actuation.fasteners import SCREWS
-from ocs_design.actuation.motor import BoltCircle
+from ocs_design.actuation.fasteners import SCREWS, BoltCircle
 from ocs_design.common.errors import PartError
 from ocs_design.export.meshes import part_manifold
 from ocs_design.parts.cage import cage_part

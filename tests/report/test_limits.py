@@ -8,7 +8,7 @@ from rich.console import Console
 from stories import design
 
 from ocs_design.common.wording import quantity
-from ocs_design.device.records.device import Margin
+from ocs_design.device.records.flights import Margin
 from ocs_design.device.records.selection import Alternative
 from ocs_design.report.limits import (
     LIMIT_MEANINGS,

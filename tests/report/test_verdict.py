@@ -12,8 +12,7 @@ from rich.console import Console
 from stories import design
 
 from ocs_design.device.answers import Validated
-from ocs_design.device.records.device import Buildable, OpenPoint
-from ocs_design.device.records.flights import ValidationRecord
+from ocs_design.device.records.flights import Buildable, OpenPoint, ValidationRecord
 from ocs_design.report.table import Tone
 from ocs_design.report.text.layout import items, note, wrapped
 from ocs_design.report.text.size import print_summary

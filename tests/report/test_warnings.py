@@ -12,7 +12,7 @@ from rich.console import Console
 from stories import design
 
 from ocs_design.device.records.design import read_design
-from ocs_design.device.records.device import Margin
+from ocs_design.device.records.flights import Margin
 from ocs_design.device.records.selection import ReserveRecord
 from ocs_design.report.device import device_facts
 from ocs_design.report.html.elements import Markup

@@ -9,8 +9,9 @@ from wheels import driven_device
 
 from ocs_design.requirement.turns import Catch, TurnTo
 from ocs_design.simulation.scenario import Flights, run_scenarios
-from ocs_design.simulation.scene import Wheels, total_mass_properties
+from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.verdict import landing_attitude
+from ocs_design.simulation.world import total_mass_properties
 from ocs_design.simulation.world_builder import WorldBuilder
 from ocs_design.sizing.trajectory.plans import plan
 

@@ -8,7 +8,8 @@ import pytest
 
 from ocs_design.actuation.motor import build_gaps
 from ocs_design.catalogue.motors import motors
-from ocs_design.device.records.device import Clearance, Margin
+from ocs_design.device.records.device import Clearance
+from ocs_design.device.records.flights import Margin
 from ocs_design.robot.reader import read_robot
 from ocs_design.sizing.buildable import buildable
 from ocs_design.sizing.footing.contact import FootContact

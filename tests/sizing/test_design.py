@@ -17,7 +17,6 @@ from ocs_design.catalogue.motors import motor
 from ocs_design.common.errors import Infeasible
 from ocs_design.device.joints import SHAFT_JOINT, burst_of, joints_of
 from ocs_design.device.layout import Criterion
-from ocs_design.device.solids import foot_of
 from ocs_design.export.bill_of_materials import bill_rows
 from ocs_design.parts.foot import foot_shock
 from ocs_design.parts.printed import CLEARANCE, GUARD_GAP, SHOCK
@@ -108,7 +107,7 @@ def test_feet_of_a_heavy_device_are_as_thick_as_the_landing_shock_requires():
     device = design_device(task).device
     thickness = device.foot_plate
     assert thickness > 0.006
-    capacity = foot_shock(foot_of(device), device.flywheel.mass + device.carrier.mass)
+    capacity = foot_shock(device.foot, device.flywheel.mass + device.carrier.mass)
     assert SHOCK <= capacity <= SHOCK * (thickness / (thickness - 3e-4)) ** 2
     bill_mass = sum(row.quantity * row.mass for row in bill_rows(device))
     assert bill_mass == pytest.approx(device.mass, rel=1e-9)

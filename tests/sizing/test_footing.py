@@ -21,18 +21,13 @@ from ocs_design.device.bodies import wheel_placement
 from ocs_design.device.checks import check_device
 from ocs_design.device.device import Module
 from ocs_design.device.layout import PAIR, Layout, LayoutName
-from ocs_design.device.solids import foot_of, module_solids, plate_heads, plate_solids
+from ocs_design.device.solids import module_solids, plate_heads, plate_solids
 from ocs_design.export.assembly.placed import placed_parts
 from ocs_design.export.device_parts import foot_holes, wheel_pieces
 from ocs_design.export.meshes import part_manifold
 from ocs_design.parts.carrier_plate import ALUMINIUM, MAST_YIELD, SAFETY, STOCK, plate_bodies
 from ocs_design.parts.pedestal import pedestal_part
-from ocs_design.parts.plate_strength import (
-    mast_screws_use,
-    mast_stress,
-    plate_stresses,
-    posts_use,
-)
+from ocs_design.parts.plate_strength import mast_screws_use, mast_stress, plate_stresses, posts_use
 from ocs_design.parts.printed import TRUNK_SCREW
 from ocs_design.parts.shapes import Disc, Rectangle
 from ocs_design.parts.solids import Part, Prism, Revolution, hollow_cylinder
@@ -57,7 +52,7 @@ from ocs_design.sizing.mounting import contacts_of, mounting_of, mounting_open_p
 from ocs_design.sizing.place import SPACING
 
 DEVICE = driven_device()
-FOOT = foot_of(DEVICE)
+FOOT = DEVICE.foot
 TOP = 0.05
 
 REAL = [

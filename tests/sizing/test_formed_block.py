@@ -14,15 +14,8 @@ from wheels import driven_device, stand_on_trunk
 
 from ocs_design.common.errors import OcsError
 from ocs_design.device.checks import check_device
-from ocs_design.device.solids import foot_of
 from ocs_design.export.meshes import part_mesh
-from ocs_design.parts.carrier_plate import (
-    MAST_YIELD,
-    TOUCH,
-    block_part,
-    plate_bodies,
-    steepest,
-)
+from ocs_design.parts.carrier_plate import MAST_YIELD, TOUCH, block_part, plate_bodies, steepest
 from ocs_design.parts.joints import pattern_use
 from ocs_design.parts.plate_strength import mast_screws_use, mast_stress
 from ocs_design.robot.reader import read_robot
@@ -69,7 +62,7 @@ def test_a_round_trunk_carries_a_mast_by_a_formed_block(on_cylinder):
     assert block.held
     assert block.share == 1.0
     assert 0.0 < steepest(plate) <= TILT_MAX
-    mass, height = device.module_mass, foot_of(device).wheel_height
+    mass, height = device.module_mass, device.foot.wheel_height
     assert mast_stress(plate, mass, height) <= MAST_YIELD
     assert mast_screws_use(plate, mass, height) <= 1.0
     assert msgspec.json.decode(msgspec.json.encode(plate), type=type(plate)) == plate

@@ -12,7 +12,6 @@ from part_gaps import overlap_volume, turning_clearance
 from ocs_design.catalogue.materials import material
 from ocs_design.common.errors import SpecificationError, UsageError
 from ocs_design.device.joints import balance_of, joints_of
-from ocs_design.device.solids import motor_mount
 from ocs_design.export.assembly.booklet import assembly_pages, chapters, piece_rows
 from ocs_design.export.assembly.content import Assembly
 from ocs_design.export.assembly.placed import bonding_pieces, placed_parts
@@ -259,7 +258,7 @@ def test_the_fixture_holds_ring_and_bell_as_in_the_module():
     below_ring = (radius > wheel.inner_radius) & (radius < wheel.outer_radius)
     assert fixture[below_ring, 1].max() == pytest.approx(low)
     distance = ring[:, 1].mean() - front
-    assert distance == pytest.approx(motor_mount(device).bell.front, abs=1e-6)
+    assert distance == pytest.approx(device.mount.bell.front, abs=1e-6)
 
 
 @pytest.mark.slow

@@ -15,6 +15,7 @@ from robots import ROBOTS, robot_parameters
 from ocs_design.common.errors import OcsError, RobotError
 from ocs_design.common.files import to_json
 from ocs_design.device.checks import check_control
+from ocs_design.device.device import Device
 from ocs_design.device.records.design import read_design
 from ocs_design.device.records.flights import ControlRecord
 from ocs_design.device.records.requirement import ManeuverRecord, RobotRecord
@@ -120,7 +121,7 @@ def test_a_device_is_restored_to_the_last_digit(tmp_path, motor):
     design = record_of(task, sizing)
     (tmp_path / "design.json").write_bytes(to_json(design))
     read, device = read_design(tmp_path / "design.json"), sizing.device
-    restored = read.ocs.device(read.supply)
+    restored = Device.of_record(read.ocs, read.supply)
     for name in ("incidence", "flywheel", "motor", "carrier", "supply"):
         assert getattr(restored, name) == getattr(device, name)
     for ours, theirs in zip(restored.modules, device.modules, strict=True):

@@ -16,9 +16,11 @@ from ocs_design.actuation.supply import Supply
 from ocs_design.common.errors import OcsError
 from ocs_design.common.files import AnyPath, read_plain_file
 from ocs_design.common.units import format_quantity
-from ocs_design.device.records.device import Buildable, Margin, OcsRecord
+from ocs_design.device.records.device import OcsRecord
 from ocs_design.device.records.flights import (
+    Buildable,
     ControlRecord,
+    Margin,
     ReliabilityRecord,
     SurvivalRecord,
     ValidationRecord,

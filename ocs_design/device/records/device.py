@@ -1,20 +1,16 @@
-"""Records of the device in its place, its margins and its open points."""
+"""Records of the device in its place."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
-
-import numpy as np
+from dataclasses import dataclass
 
 from ocs_design.actuation.drive import Drive
-from ocs_design.actuation.supply import Supply
 from ocs_design.common.arrays import Matrix, Vector
-from ocs_design.common.records import recorded
-from ocs_design.device.device import NO_CARRIER, Device, Flywheel, Module
 from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.parts.carrier_plate import CarrierPlate
 from ocs_design.parts.pedestal import Pedestal
 from ocs_design.parts.printed import PLATE_THICKNESS
-from ocs_design.parts.solids import Carrier
+from ocs_design.parts.solids import NO_CARRIER, Carrier
+from ocs_design.parts.wheel import Flywheel
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -94,66 +90,8 @@ class OcsRecord:
     mounting: MountingRecord | None = None
     layout: LayoutName = LayoutName.PAIR
 
-    def device(self, supply: Supply | None = None) -> Device:
-        """The device exactly as designed; `supply` is its supply."""
-        modules = (
-            Module(module.name, np.array(module.axis), np.array(module.position))
-            for module in self.modules
-        )
-        return recorded(Device, self, modules=tuple(modules), supply=supply, layout=self.axes)
-
     @property
     def axes(self) -> Layout:
         """Layout of the modules' axes."""
         axes = (module.axis for module in self.modules)
         return Layout(self.layout, tuple(axes) if self.layout is LayoutName.BY_HAND else ())
-
-
-@dataclass(frozen=True)
-class Margin:
-    """Demand on one part against its capacity.
-
-    Attributes:
-        name: of the quantity; each name is one kind of margin.
-        demand: largest demand, never negative.
-        capacity: of the part; None: no limit, or an unknown one; `note` says which.
-        unit: of both, SI.
-        margin: capacity over demand, exceeded below 1; None: no limit or no demand.
-        scenario: name of the maneuver with the largest demand; empty if none.
-        note: basis of the figures, one sentence; may be empty.
-    """
-
-    name: str
-    demand: float
-    capacity: float | None
-    unit: str
-    margin: float | None = field(default=None, init=False)
-    scenario: str = ""
-    note: str = ""
-
-    def __post_init__(self) -> None:
-        capacity, demand = self.capacity, self.demand
-        # A field that is set is written to the file, even if None.
-        margin = None if capacity is None or demand == 0.0 else capacity / demand
-        object.__setattr__(self, "margin", margin)
-
-    @property
-    def sort_key(self) -> tuple[float, float]:
-        """Sort key: demand as a fraction of the capacity, then demand."""
-        return (0.0 if self.margin is None else 1.0 / self.margin, self.demand)
-
-
-@dataclass(frozen=True, kw_only=True)
-class OpenPoint:
-    """An obstacle to building a device, and the cure."""
-
-    what: str
-    cure: str
-
-
-@dataclass(frozen=True, kw_only=True)
-class Buildable:
-    """Whether the device can be built as designed; None where that is unknown."""
-
-    yes: bool | None
-    open: tuple[OpenPoint, ...] = ()

@@ -1,12 +1,62 @@
-"""Records of flights: as designed, with a drive stopped, and of samples."""
+"""Records of margins, and of flights: as designed, with a drive stopped, and of samples."""
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Annotated
 
 from ocs_design.common.ranges import OneOf, Positive, Range
 from ocs_design.requirement.vocabulary import PROJECTIONS
+
+
+@dataclass(frozen=True)
+class Margin:
+    """Demand on one part against its capacity.
+
+    Attributes:
+        name: of the quantity; each name is one kind of margin.
+        demand: largest demand, never negative.
+        capacity: of the part; None: no limit, or an unknown one; `note` says which.
+        unit: of both, SI.
+        margin: capacity over demand, exceeded below 1; None: no limit or no demand.
+        scenario: name of the maneuver with the largest demand; empty if none.
+        note: basis of the figures, one sentence; may be empty.
+    """
+
+    name: str
+    demand: float
+    capacity: float | None
+    unit: str
+    margin: float | None = field(default=None, init=False)
+    scenario: str = ""
+    note: str = ""
+
+    def __post_init__(self) -> None:
+        capacity, demand = self.capacity, self.demand
+        # A field that is set is written to the file, even if None.
+        margin = None if capacity is None or demand == 0.0 else capacity / demand
+        object.__setattr__(self, "margin", margin)
+
+    @property
+    def sort_key(self) -> tuple[float, float]:
+        """Sort key: demand as a fraction of the capacity, then demand."""
+        return (0.0 if self.margin is None else 1.0 / self.margin, self.demand)
+
+
+@dataclass(frozen=True, kw_only=True)
+class OpenPoint:
+    """An obstacle to building a device, and the cure."""
+
+    what: str
+    cure: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Buildable:
+    """Whether the device can be built as designed; None where that is unknown."""
+
+    yes: bool | None
+    open: tuple[OpenPoint, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -11,19 +11,13 @@ from math import pi, sqrt
 from ocs_design.actuation.fasteners import CLASSES, BoltedJoint, Fastening
 from ocs_design.common.units import significant
 from ocs_design.device.device import Device
-from ocs_design.device.joints import balance_of, burst_of, foot_hold
-from ocs_design.device.solids import motor_mount
+from ocs_design.device.joints import balance_of, burst_of
 from ocs_design.export.assembly.placed import Piece, bonding_pieces, module_pieces
 from ocs_design.export.device_parts import places, trunk_holes
 from ocs_design.export.formats import Documented, Subject
 from ocs_design.parts.foot import FootHold
 from ocs_design.parts.guard import Containment
-from ocs_design.parts.joints import (
-    FRICTION,
-    TIGHTENING_FACTOR,
-    joint_preload,
-    tightening_torque,
-)
+from ocs_design.parts.joints import FRICTION, TIGHTENING_FACTOR, joint_preload, tightening_torque
 from ocs_design.parts.printed import PETG, PRESSURE_SHARE, WASHER
 
 STRIP_SHARE = 1.0 / 3.0
@@ -126,7 +120,7 @@ class Slipping:
 def slipping(device: Device) -> tuple[Slipping, ...]:
     """Screws of the motor's mount that slip under its torque."""
     found = []
-    for ring in motor_mount(device).screwed:
+    for ring in device.mount.screwed:
         fastening, radius = ring.fastening, ring.circle.radius
         if fastening.joint is BoltedJoint.WHEEL:
             continue
@@ -166,7 +160,7 @@ class Assembly(Documented):
             if fastening is not None:
                 tapped = plate is not None and fastening.joint is BoltedJoint.FOOT_ON_PLATE
                 deepest = plate.thickness if plate is not None and tapped else math.inf
-                hold = foot_hold(self.device) if fastening.joint.of_foot else None
+                hold = self.device.foot_hold if fastening.joint.of_foot else None
                 by_fastening[fastening] = tightened(fastening, on_slot=hold, deepest=deepest)
         return by_fastening
 

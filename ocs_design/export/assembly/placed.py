@@ -16,7 +16,7 @@ from ocs_design.common.frames import Placement
 from ocs_design.device.bodies import carrier_placement, wheel_placement
 from ocs_design.device.device import Device
 from ocs_design.device.joints import foot_screws
-from ocs_design.device.solids import drive_solids, foot_of, motor_mount, shaft_cut
+from ocs_design.device.solids import shaft_cut
 from ocs_design.export.device_parts import (
     foot_holes,
     pedestal_kinds,
@@ -25,8 +25,8 @@ from ocs_design.export.device_parts import (
     wheel_pieces,
 )
 from ocs_design.export.meshes import Mesh, merged, part_mesh, solid_mesh
-from ocs_design.export.visuals import cage_placement
 from ocs_design.parts.carrier_plate import plate_bodies
+from ocs_design.parts.foot import cage_placement
 from ocs_design.parts.housing import FIRST_EAR, LID_SCREWS, guard_ring
 from ocs_design.parts.motor_mount import DriveSolid
 from ocs_design.parts.printed import LID_SCREW, ear_axis
@@ -84,7 +84,7 @@ def placed_parts(device: Device) -> Mapping[str, tuple[Part[float], Placement]]:
     }
     if device.wheels_alone:
         return parts
-    foot, cage = foot_of(device), motor_mount(device).cage
+    foot, cage = device.foot, device.mount.cage
     if device.guard_wall:
         parts["guard"] = guard_ring(foot.housing), ORIGIN
     places = {"foot": foot.placement}
@@ -93,7 +93,7 @@ def placed_parts(device: Device) -> Mapping[str, tuple[Part[float], Placement]]:
     for part in printed_parts(device):
         parts[part.name] = (part, places.get(part.name, ORIGIN))
     for kind, mass in (("gear", device.motor.gear_mass), ("motor", device.motor.mass)):
-        solids = [solid for solid in drive_solids(device) if solid.name == kind]
+        solids = [solid for solid in device.drive_solids if solid.name == kind]
         bodies = [_drive_bodies(device, solid) for solid in solids]
         volume = sum(body.volume() for both in bodies for body in both)
         for name, solid, both in zip((kind, f"{kind}_2"), solids, bodies, strict=False):
@@ -133,7 +133,7 @@ def module_pieces(device: Device) -> tuple[Piece, ...]:
     wheel = [parts.pop(name.removeprefix("flywheel_")) for name in wheel_pieces(device.flywheel)]
     if device.wheels_alone:
         return tuple(wheel)
-    foot, mount = foot_of(device), motor_mount(device)
+    foot, mount = device.foot, device.mount
     floor = -foot.housing.half_height
     behind, inside, on_wheel = list[Piece](), list[Piece](), list[Piece]()
     for ring in mount.screwed:
@@ -158,7 +158,7 @@ def bonding_pieces(device: Device) -> tuple[Piece, ...]:
 
     The motor's front faces down; y points down.
     """
-    fixture, bell = ring_fixture(device), motor_mount(device).bell
+    fixture, bell = ring_fixture(device), device.mount.bell
     if fixture is None or bell is None:
         return ()
     level = np.array([0.0, 0.0, bell.fixture_floor + bell.front])
@@ -193,7 +193,7 @@ def _ring(
 
 def _foot_screws(device: Device) -> Iterator[Piece]:
     """Screws of the foot, from above through its slots into its support."""
-    foot = foot_of(device)
+    foot = device.foot
     feet = [foot_screws(device, module) for module in device.modules]
     holes = foot_holes(device)
     for fastening in dict.fromkeys(feet):
@@ -216,7 +216,7 @@ def _foot_screws(device: Device) -> Iterator[Piece]:
 
 def _pieces_below(device: Device) -> Iterator[Piece]:
     """Plate, mast and sleeves, or a pedestal of each kind, and their screws."""
-    foot, plate = foot_of(device), device.plate
+    foot, plate = device.foot, device.plate
     apart, free_from = _APART * foot.housing.radius, np.inf
     if plate is not None:
         on_trunk = Placement(np.eye(3), np.array(plate.position))

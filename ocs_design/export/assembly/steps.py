@@ -15,22 +15,15 @@ from ocs_design.device.joints import (
     SHAFT_JOINT,
     balance_of,
     bonded_on_shaft,
-    foot_hold,
     joints_of,
     rim_fit,
     unheld_moment,
 )
 from ocs_design.device.layout import PAIR, SIDES
 from ocs_design.device.resonances import resonances_of
-from ocs_design.device.solids import drive_solids, foot_of, shaft_cut
+from ocs_design.device.solids import shaft_cut
 from ocs_design.export.assembly.content import LEAST_DRILL, Assembly, Tightened, slipping
-from ocs_design.export.device_parts import (
-    BLOCK,
-    foot_holes,
-    pedestal_kinds,
-    places,
-    trunk_holes,
-)
+from ocs_design.export.device_parts import BLOCK, foot_holes, pedestal_kinds, places, trunk_holes
 from ocs_design.parts.bell import GLUE_GAP
 from ocs_design.parts.carrier_plate import SHIM, TOUCH, CarrierPlate, steepest
 from ocs_design.parts.foot import LONG_MARKS
@@ -144,18 +137,18 @@ def module_steps(assembly: Assembly) -> Iterator[str]:
     """Steps to make, assemble and test one module."""
     device = assembly.device
     if "drum" in assembly.numbers:
-        hole, supports, milled = foot_of(device).housing.mount.pilot_radius, "no supports", ""
+        hole, supports, milled = device.foot.housing.mount.pilot_radius, "no supports", ""
         parts, ears = "drum, lid and foot", "the drum"
         if "cage" in assembly.numbers:
             parts, ears = "drum, lid, foot and cage", "drum and cage"
         if sqrt(2.0) * hole > FREE_SPAN:
             supports += f" except in the hole of {2e3 * hole:.0f} mm of the standing foot"
-        if foot_hold(device).heads_bear < SHOCK:
+        if device.foot_hold.heads_bear < SHOCK:
             milled = " The foot is milled instead (see Before you start)."
         yield (
             f"Print {parts} in PETG, oriented as "
             "in cad/housing.3mf, one of each, arranged by the slicer on your bed of at least "
-            f"{ceil(2e3 * foot_of(device).housing.radius)} mm: 0.2 mm layers, "
+            f"{ceil(2e3 * device.foot.housing.radius)} mm: 0.2 mm layers, "
             f"100 % infill (strength and masses assume solid parts), {supports}.{milled} Tap the "
             f"ears of {ears} {LID_SCREW.name}."
         )
@@ -237,12 +230,12 @@ def _height_strip(assembly: Assembly) -> float | None:
     device = assembly.device
     if not bonded_on_shaft(device):
         return None
-    return CLEARANCE + (foot_of(device).housing.rim_height - device.flywheel.height) / 2.0
+    return CLEARANCE + (device.foot.housing.rim_height - device.flywheel.height) / 2.0
 
 
 def _near_lid(assembly: Assembly) -> str:
     """Warning on the gap of the hub or its screws to the lid if a finger can close it."""
-    device, housing = assembly.device, foot_of(assembly.device).housing
+    device, housing = assembly.device, assembly.device.foot.housing
     web = device.flywheel.web
     if web is None or device.on_bell:
         return ""
@@ -329,7 +322,7 @@ def _wheel_steps(assembly: Assembly) -> Iterator[str]:
 
 def _trunk_steps(assembly: Assembly) -> Iterator[str]:
     """Steps to assemble trunk, plate, mast, feet and pedestals."""
-    device, foot, standing = assembly.device, foot_of(assembly.device), foot_holes(assembly.device)
+    device, foot, standing = assembly.device, assembly.device.foot, foot_holes(assembly.device)
     drilled = [f"{part_name('foot', of)} {' and '.join(places(at))}" for of, at in standing.items()]
     holes = {pedestal.module: pedestal.in_base(pedestal.holes) for pedestal in device.pedestals}
     drilled += [f"{part_name('pedestal', of)} {', '.join(places(at))}" for of, at in holes.items()]
@@ -445,7 +438,7 @@ def _turning_step(assembly: Assembly, standing: Sequence[str]) -> str:
         angle = float(np.arctan2(module.frame[1, 1], module.frame[0, 1]))
         side, turn = "left" if angle > 0.0 else "right", format_quantity(abs(angle), "deg")
         looks.append(f"{turn} to the {side} of forward ({module.name})")
-    long, degree = 360.0 / LONG_MARKS, 1e3 * np.radians(foot_of(device).marks_radius)
+    long, degree = 360.0 / LONG_MARKS, 1e3 * np.radians(device.foot.marks_radius)
     fastening, plate = screws.fastening, device.plate
     into = "the threads of the plate" if plate else "threads, inserts or nuts of the trunk"
     # Pins through the feet if friction alone does not keep them from turning.
@@ -455,7 +448,7 @@ def _turning_step(assembly: Assembly, standing: Sequence[str]) -> str:
             " Then drill 3 mm through the base of each foot, clear of its slots, into what it "
             "stands on, and put a pin in: in a maneuver the wheel twists its foot with up to "
             f"{significant(unheld, 2)} N m, and the friction of its screws holds "
-            f"{significant(foot_hold(device).turning, 2)} N m."
+            f"{significant(device.foot_hold.turning, 2)} N m."
         )
     return (
         f"The scale's 0 is the long mark square to the wheel's axis; marks are {long / 3.0:g} deg "
@@ -511,7 +504,7 @@ def _scribed(device: Device, modules: Sequence[Module]) -> tuple[str, dict[str, 
 
 def _marks_apart(device: Device, modules: Sequence[Module]) -> str:
     """Distance of the 0 marks of opposite feet, to check their angles; empty without such feet."""
-    radius, distances_by_degree = foot_of(device).marks_radius, {}
+    radius, distances_by_degree = device.foot.marks_radius, {}
     for module in modules:
         mate = _mate(module, modules)
         if mate is None or module.position[1] < 0.0:
@@ -538,14 +531,14 @@ def _marks_apart(device: Device, modules: Sequence[Module]) -> str:
 
 def room_above(device: Device, screws: Tightened) -> float | None:
     """Least space above foot screws under motor or cage [m]; None if there are none."""
-    foot, screw, rooms = foot_of(device), screws.fastening.screw, []
+    foot, screw, rooms = device.foot, screws.fastening.screw, []
     corner = screw.key / sqrt(3.0)
     top = float(foot.base) + screw.head_height + (WASHER_HEIGHT if screws.washers else 0.0)
     for along, across in _screws_aside(device):
         overlap = max(0.0, abs(across) - corner)
         rooms += [
             foot.wheel_height + solid.up - sqrt(solid.radius**2 - overlap**2) - top
-            for solid in drive_solids(device)
+            for solid in device.drive_solids
             if solid.low < along + corner and along - corner < solid.high and overlap < solid.radius
         ]
     return min(rooms, default=None)
@@ -560,7 +553,7 @@ def _screws_aside(device: Device) -> Iterator[tuple[float, float]]:
             yield float(aside @ out), float(out[0] * aside[1] - out[1] * aside[0])
     if device.pedestals:
         # On a seat they are at 45 degrees to the wheel's axis, which is along it.
-        off = foot_of(device).slot_radius / sqrt(2.0)
+        off = device.foot.slot_radius / sqrt(2.0)
         yield from ((off, off), (-off, -off))
 
 
@@ -587,7 +580,7 @@ def _beside_stem(assembly: Assembly, tightened_screws: Tightened) -> str:
 
     Stems are made clear of the screws' heads, and a washer at the end of a slot is wider.
     """
-    foot, radius = foot_of(assembly.device), WASHER_ACROSS / 2.0
+    foot, radius = assembly.device.foot, WASHER_ACROSS / 2.0
     rooms = [
         -along - foot.back
         for along, across in _screws_aside(assembly.device)

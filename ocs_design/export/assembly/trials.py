@@ -9,7 +9,6 @@ from ocs_design.common.units import STANDARD_GRAVITY, rpm, significant
 from ocs_design.device.device import Device
 from ocs_design.device.joints import balance_of, burst_of, yield_margin
 from ocs_design.device.resonances import DAMPING, Resonance, resonances_of
-from ocs_design.device.solids import motor_mount
 from ocs_design.export.assembly.content import LEAST_DRILL, Assembly
 from ocs_design.export.electrics import demand_of
 from ocs_design.parts.carrier_plate import STOCK, plate_part
@@ -104,7 +103,7 @@ def balance(assembly: Assembly) -> Iterator[str]:
 
 def _at_the_rim(assembly: Assembly) -> Iterator[str]:
     """How to drill both faces of a rim whose inner face is next to the drum's floor."""
-    device, mount = assembly.device, motor_mount(assembly.device)
+    device, mount = assembly.device, assembly.device.mount
     motor_screws = assembly.screws_of(BoltedJoint.MOTOR, BoltedJoint.MOTOR_IN_CAGE)
     if not motor_screws or "drum" not in assembly.numbers:
         return

@@ -7,15 +7,9 @@ from ocs_design.actuation.fasteners import STEEL
 from ocs_design.common.units import rpm, significant
 from ocs_design.device.device import Device
 from ocs_design.device.joints import burst_of
-from ocs_design.device.solids import foot_of
 from ocs_design.export.drawing import sheet
 from ocs_design.export.drawing.sheet import Anchor, Circle, Item, Lettering, Line
-from ocs_design.export.drawing.title_block import (
-    Entries,
-    complete_sheet,
-    device_hash,
-    title_of,
-)
+from ocs_design.export.drawing.title_block import Entries, complete_sheet, device_hash, title_of
 from ocs_design.export.drawing.views import (
     CHAMFER_ASIDE,
     CHAMFER_BELOW,
@@ -48,7 +42,7 @@ def guard_sheet(device: Device, robot: str, refused: str = "") -> list[Item]:
     """
     if not device.guard_wall:
         return []
-    housing = foot_of(device).housing
+    housing = device.foot.housing
     inside = housing.guard_radius
     ring = Rim(inside, inside + device.guard_wall, housing.guard_height, RING_STEEL, STEEL)
     layout = lay_out(Wheel(ring))

@@ -9,6 +9,7 @@ from ocs_design.actuation.motor import DIRECT
 from ocs_design.catalogue.gears import gears
 from ocs_design.catalogue.materials import materials
 from ocs_design.common.wording import counted, grams
+from ocs_design.device.device import Device
 from ocs_design.device.records.design import OcsDesign
 from ocs_design.export.assembly.booklet import chapters, pictures, piece_rows, screw_rows
 from ocs_design.export.assembly.content import Assembly
@@ -248,7 +249,8 @@ def assembly_section(story: Story) -> Markup:
     # The exploded view takes a second to draw, so the drawing for the PDF is reused.
     assembly = story.assembly
     if assembly is None:
-        assembly = Assembly(design.robot.name, ocs.device(design.supply)).recorded(design)
+        device = Device.of_record(ocs, design.supply)
+        assembly = Assembly(design.robot.name, device).recorded(design)
     pieces, screws = (
         tuple(tuple(map(str, row)) for row in rows)
         for rows in (piece_rows(assembly), screw_rows(assembly))

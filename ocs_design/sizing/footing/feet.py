@@ -12,7 +12,6 @@ from ocs_design.actuation.tilt_inertia import OUT_OF_REACH
 from ocs_design.common.arrays import FloatArray
 from ocs_design.device.device import Device, Module
 from ocs_design.device.layout import Layout
-from ocs_design.device.solids import foot_of, motor_mount
 from ocs_design.parts.carrier_plate import CarrierPlate, Point
 from ocs_design.parts.dog_bone import directions
 from ocs_design.parts.pedestal import Pedestal
@@ -135,8 +134,8 @@ class Footing:
 
 def device_size(device: Device) -> Size[float]:
     """Space that each module takes."""
-    wheel, mount = device.flywheel, motor_mount(device)
-    if device.carrier.mass == 0.0:
+    wheel, mount = device.flywheel, device.mount
+    if device.wheels_alone:
         return wheel_size(wheel.outer_radius, wheel.height)
     return module_size(
         wheel.outer_radius + device.guard_wall,
@@ -149,15 +148,14 @@ def device_size(device: Device) -> Size[float]:
 
 def feet_of(device: Device) -> Feet:
     """Feet of a device that has them."""
-    foot = foot_of(device)
+    foot = device.foot
     places = np.array([module.position[:2] for module in device.modules])
     x = float(places[:, 0].mean())
     bases = tuple((float(along) - x, float(across)) for along, across in places)
-    mass = device.flywheel.mass + device.carrier.mass
     size = device_size(device)
     slopes = slopes_of(np.stack([module.axis for module in device.modules], axis=1))
     base = foot.base_radius, foot.slot_radius, size.reach, size.wheel_height
-    return Feet(x, bases, slopes, *base, mass)
+    return Feet(x, bases, slopes, *base, device.module_mass)
 
 
 def ring_of(layout: Layout, reach: float) -> tuple[Point, ...]:

@@ -11,7 +11,7 @@ from ocs_design.actuation.tilt_inertia import OUT_OF_REACH
 from ocs_design.common.arrays import frozen, vector
 from ocs_design.device.device import Device
 from ocs_design.device.layout import Layout
-from ocs_design.device.solids import foot_of, pedestal_of, pedestal_solids, plate_solids
+from ocs_design.device.solids import pedestal_of, pedestal_solids, plate_solids
 from ocs_design.parts.pedestal import Pedestal
 from ocs_design.parts.printed import AROUND_SLOT
 from ocs_design.robot.robot import Robot
@@ -197,7 +197,7 @@ def _supports(
 
     The modules are above their intended places; `fixed`: whether their heights are fixed too.
     """
-    heights, pedestals, foot = [], [], foot_of(device)
+    heights, pedestals, foot = [], [], device.foot
     for module in device.modules:
         present_height = float(module.position[2])
         lowest = pedestal_of(device, module) if is_tilted(module) else None

@@ -7,7 +7,6 @@ import numpy as np
 from ocs_design.common.arrays import frozen
 from ocs_design.device.device import Device
 from ocs_design.device.layout import ISOTROPIC, PAIR, Layout
-from ocs_design.device.solids import foot_of
 from ocs_design.parts.foot import Foot
 from ocs_design.parts.housing import Housing
 from ocs_design.requirement.device_sections import Envelope
@@ -102,7 +101,7 @@ def footing_under(
     """
     failed = failed or FailedSearches()
     surface = trunk_surface(robot)
-    if device.carrier.mass == 0.0:
+    if device.wheels_alone:
         return None
     feet, layout = feet_of(device), device.layout
     if not feet.slopes:
@@ -113,7 +112,7 @@ def footing_under(
         places = [module.position for module in device.modules]
         if layout != PAIR:
             return Footing(place_at(tuple(np.concatenate(places).tolist()), layout), None)
-        _, plate = support_at(surface, feet, float(places[0][2]) - foot_of(device).wheel_height)
+        _, plate = support_at(surface, feet, float(places[0][2]) - device.foot.wheel_height)
         return Footing(place_at(tuple(places[0].tolist())), plate)
     feet = replace(feet, bases=ring_of(layout, feet.reach))
     footing = footing_on_top(surface, feet, Search.of(robot, feet.size, layout), failed)

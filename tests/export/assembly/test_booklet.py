@@ -6,14 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from built_devices import (
-    CAGED,
-    DEVICES,
-    MAST_PLATE,
-    device_in_layout,
-    housed_device,
-    in_two_rows,
-)
+from built_devices import CAGED, DEVICES, MAST_PLATE, device_in_layout, housed_device, in_two_rows
 from hypothesis import given
 from hypothesis import strategies as st
 from wheel_drawings import box_of, check_words
@@ -24,11 +17,10 @@ from ocs_design.actuation.supply import Supply
 from ocs_design.catalogue.materials import materials
 from ocs_design.common.units import rpm
 from ocs_design.device.bodies import carrier_placement, wheel_placement
-from ocs_design.device.joints import balance_of, burst_of, foot_hold, rim_fit, yield_margin
+from ocs_design.device.joints import balance_of, burst_of, rim_fit, yield_margin
 from ocs_design.device.layout import Layout, LayoutName
-from ocs_design.device.records.device import Margin
+from ocs_design.device.records.flights import Margin
 from ocs_design.device.resonances import resonances_of
-from ocs_design.device.solids import foot_of, motor_mount
 from ocs_design.export.assembly.booklet import assembly_pages, chapters, piece_rows, screw_rows
 from ocs_design.export.assembly.content import Assembly
 from ocs_design.export.assembly.views import BALLOON, pulled_apart, spread
@@ -221,7 +213,7 @@ def test_screws_that_the_motor_turns_in_their_play_are_bedded():
     def held(head, hole, radius):
         return 0.1 * 4.0 * np.pi / 4.0 * (head**2 - hole**2) * 47e6 / 2.0 / 1.6 * radius
 
-    cage, ears = motor_mount(device).cage, motor_mount(device).holes.screws
+    cage, ears = device.mount.cage, device.mount.holes.screws
     by_motor = held(5.5e-3, 3.4e-3, CAGED.mounting.stator.radius)
     by_cage = held(3.8e-3, 2.4e-3, ears.radius)
     assert cage is not None
@@ -242,7 +234,7 @@ def test_a_washer_at_the_end_of_a_slot_is_filed_where_it_meets_the_stem(angle, f
     device = DEVICES["on a plate"].at_incidence(np.radians(angle))
     motor = replace(device.motor, mass=1.5)
     heavy = replace(device, motor=motor, carrier=replace(device.carrier, mass=1.6))
-    assert foot_hold(heavy).washers
+    assert heavy.foot_hold.washers
     text = texts(Assembly("dog", heavy), "Steps")
     assert ("File a side of its washer flat: the foot's stem is 4.3" in text) == filed
     light = texts(Assembly("dog", device), "Steps")
@@ -317,7 +309,7 @@ def test_a_guard_ring_is_built_and_described_with_its_limits():
     assert rows["guard ring"].file == "guard_ring.pdf"
     # The gap between ring and drum is for epoxy, which is on the bill.
     pieces = {piece.key: piece.mesh for piece in assembly.pieces}
-    drum = foot_of(device).housing.inner_radius
+    drum = device.foot.housing.inner_radius
     assert drum - pieces["guard"].vertices[:, 0].max() == pytest.approx(0.1e-3, abs=5e-5)
     assert "0.1 mm all around, down to its floor" in texts(assembly, "Steps")
     bill = {row.part: row for row in bill_rows(device)}
@@ -436,7 +428,7 @@ def test_access_to_the_rim_for_drilling_depends_on_the_mounting(name, access):
     assert ("The inner face is" in text) == bool(access)
     assert access in text
     if name == "caged":
-        diameter, window = device.motor.diameter, foot_of(device).housing.mount.pilot_radius
+        diameter, window = device.motor.diameter, device.foot.housing.mount.pilot_radius
         assert diameter < 2.0 * window
         assert (
             f"its {1e3 * diameter:.1f} mm pass through the window of {2e3 * window:.1f} mm" in text
@@ -628,7 +620,7 @@ def test_the_spin_test_stays_within_the_speed_limit_of_the_motor(allowed, words)
 def test_a_lid_that_can_be_pressed_onto_the_hub_is_noted(clearance):
     """Deflection W a^2 / (16 pi D) of PETG, 1.8 GPa and 0.38, 1.2 mm thick, under 10 N."""
     device = DEVICES["caged"]
-    housing = foot_of(device).housing
+    housing = device.foot.housing
     deflection = (
         10.0 * housing.inner_radius**2 / (16.0 * np.pi * 1.8e9 * 1.2e-3**3 / 12.0) * (1 - 0.38**2)
     )
@@ -690,7 +682,7 @@ def test_each_foot_of_a_triad_is_aligned_with_its_axis():
 def test_opposite_feet_are_aligned_by_a_line_and_checked_by_their_marks(name):
     """The base of a foot extends over the plate's edge except towards the other foot."""
     device = DEVICES[name].at_incidence(np.pi / 6.0)
-    text, foot = texts(Assembly("solo12", device), "Steps"), foot_of(device)
+    text, foot = texts(Assembly("solo12", device), "Steps"), device.foot
     base = "trunk" if device.plate is None else "plate"
     assert (
         f"First scribe a line on the {base} from the middle of each foot to that of the foot"
@@ -710,7 +702,7 @@ def test_opposite_feet_are_aligned_by_a_line_and_checked_by_their_marks(name):
 def test_pedestals_of_two_shapes_are_drawn_side_by_side():
     """Each has its screws and is named by the module on it."""
     caged = DEVICES["caged"]
-    foot = foot_of(caged)
+    foot = caged.foot
     low, high = (
         Pedestal(foot.base_radius, foot.slot_radius, foot.wheel_height, lean, 0.04, module=module)
         for lean, module in ((0.3, "left"), (0.9, "right"))

@@ -8,7 +8,6 @@ from built_devices import DEVICES, device_in_layout
 from manifold3d import Manifold, Mesh64
 
 from ocs_design.device.layout import Layout, LayoutName
-from ocs_design.device.solids import motor_mount
 from ocs_design.export.assembly.placed import module_pieces, placed_parts
 from ocs_design.export.assembly.views import section_lines, visible_lines
 from ocs_design.export.assembly_notes import drive_notes
@@ -33,7 +32,7 @@ def test_pieces_and_screws_have_the_mass_of_the_carrier(name):
         for name, (part, _) in placed_parts(device).items()
         if name not in rotating
     )
-    screws = sum(screwed.fastening.mass for screwed in motor_mount(device).screwed)
+    screws = sum(screwed.fastening.mass for screwed in device.mount.screwed)
     screws += LID_SCREWS.mass + trunk_screws(device.foot_plate).mass
     assert pieces + screws == pytest.approx(device.carrier.mass, rel=1e-9)
 

@@ -10,7 +10,6 @@ import pytest
 from built_devices import DEVICES
 from wheel_drawings import REFUSED, assert_refused, box_of, check_words, covers, overlap, texts
 
-from ocs_design.device.solids import foot_of
 from ocs_design.export.assembly.steps import HAND_STRIP
 from ocs_design.export.drawing.guard_sheet import guard_sheet
 from ocs_design.export.drawing.sheet import Circle, Line
@@ -55,7 +54,7 @@ def test_sizes_on_the_sheet_are_those_of_the_solid():
     outside, wall, height = (limits(size, words)[0] for size in (OUTSIDE, WALL, HEIGHT))
     mass = float(re.search(r"([\d.]+) g\b", words)[1])
     assert mass == pytest.approx(7.85e-3 * pi * (outside - wall) * wall * height, rel=1e-3)
-    volume = part_manifold(guard_ring(foot_of(RINGED).housing)).volume()
+    volume = part_manifold(guard_ring(RINGED.foot.housing)).volume()
     assert mass == pytest.approx(7850e3 * volume, rel=1e-3)
     assert f"Ø{outside - 2.0 * wall:.4g}" in words
     length = float(re.search(r"([\d.]+) long", words)[1])
@@ -68,7 +67,7 @@ def test_sizes_on_the_sheet_are_those_of_the_solid():
 def test_the_ring_goes_into_its_drum_at_the_worst_of_its_tolerances():
     """With glue around it it fits, keeps the wheel free where it touches the drum, and lets the lid
     lie flat; no wall is thinner than sized."""
-    words, housing = lettering(RINGED), foot_of(RINGED).housing
+    words, housing = lettering(RINGED), RINGED.foot.housing
     bore, rim = 2e3 * housing.inner_radius, 1e3 * housing.rim_radius
     wide, narrow = limits(OUTSIDE, words)
     thin, thick = limits(WALL, words)

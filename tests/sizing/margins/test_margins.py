@@ -7,7 +7,7 @@ import pytest
 from driven_wheels import BELT, EC45, STEEL, driven_wheel
 
 from ocs_design.device.layout import module_axes
-from ocs_design.device.records.device import Margin
+from ocs_design.device.records.flights import Margin
 from ocs_design.sizing.margins import SampledMotion, margins, worst
 
 AXES = module_axes(np.radians(30.0))
