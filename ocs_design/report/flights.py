@@ -10,8 +10,8 @@ from ocs_design.common.units import rpm, rpm_number
 from ocs_design.common.wording import degrees, degrees_number, grams, listed
 from ocs_design.device.records.design import OcsDesign
 from ocs_design.device.records.flights import SurvivalRecord, ValidationRecord
-from ocs_design.device.records.requirement import DemandRecord
 from ocs_design.report.table import Cell, CellTable, Tone, Toned, columns
+from ocs_design.requirement.bound import SpinDemand
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.robot.stance import LANDING_TOLERANCE
 from ocs_design.simulation.run import UPRIGHT_TILT
@@ -170,7 +170,7 @@ def hand_turn_remarks(design: OcsDesign) -> tuple[str, ...]:
     return tuple(filter(None, (hand_turn_remark(demand, design) for demand in demands)))
 
 
-def hand_turn_remark(demand: DemandRecord, design: OcsDesign) -> str:
+def hand_turn_remark(demand: SpinDemand, design: OcsDesign) -> str:
     """Sentence on how the modules are turned for a maneuver; empty if they are not."""
     incidence = design.ocs.incidence
     if abs(demand.incidence - incidence) <= ANGLE_TOLERANCE:

@@ -4,39 +4,56 @@ A wheel that speeds up by `gamma` relative to the trunk takes momentum from it. 
 necessary, not sufficient: it ignores torque, angle and time.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ocs_design.actuation.tilt_inertia import OUT_OF_REACH, TiltInertia
-from ocs_design.common.arrays import FloatArray, frozen
+from ocs_design.common.arrays import FloatArray
 from ocs_design.requirement.requirement import Requirement
 
 AXES = ("roll", "pitch")
 """Axes about which the wheels can turn the trunk, in the order of all (2,) arrays."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class SpinDemand:
-    """Demand of one part of the requirement on each wheel.
+    """Demand of one part of the requirement on each wheel, as `design.json` records it.
 
     Attributes:
         source: name of the maneuver, or `rate change, roll` and `rate change, pitch`.
         incidence: at which it was computed [rad].
-        momentum: roll and pitch momentum that both wheels take together [N m s], shape (2,).
+        roll_momentum, pitch_momentum: that both wheels take together [N m s].
         spin_inertia: smallest of each wheel [kg m^2]; inf if an axis is out of the wheels' reach.
         torque: of each motor, below which no wheel turns the robot in time [N m]; 0: no time limit.
     """
 
     source: str
     incidence: float
-    momentum: FloatArray
+    roll_momentum: float
+    pitch_momentum: float
     spin_inertia: float
-    torque: float = 0.0
+    torque: float
 
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "momentum", frozen(self.momentum))
+    @classmethod
+    def of(
+        cls,
+        source: str,
+        incidence: float,
+        momentum: FloatArray,
+        spin_inertia: float,
+        torque: float = 0.0,
+    ) -> "SpinDemand":
+        """Demand with the momentum about both axes, shape (2,)."""
+        roll, pitch = momentum.tolist()
+        return cls(source, incidence, roll, pitch, spin_inertia, torque)
+
+    @property
+    def momentum(self) -> FloatArray:
+        """Roll and pitch momentum that both wheels take together [N m s], shape (2,)."""
+        return np.array([self.roll_momentum, self.pitch_momentum])
 
     @property
     def unreachable_axes(self) -> tuple[str, ...]:
@@ -133,7 +150,7 @@ def per_wheel(total: FloatArray, incidence: float) -> float:
 
 
 def spin_demands(
-    requirement: Requirement, total_inertia: FloatArray, incidence: float
+    requirement: Requirement, inertia_at: Callable[[float], FloatArray], incidence: float
 ) -> tuple[SpinDemand, ...]:
     """Demand on a wheel of each maneuver, and of the rate change about each axis.
 
@@ -143,12 +160,14 @@ def spin_demands(
 
     Args:
         requirement: maneuvers, rate change and wheel speed.
-        total_inertia: of the robot with its device, wheels braked [kg m^2], shape (3, 3).
+        inertia_at: that of the robot with its device at an incidence, wheels braked [kg m^2], shape
+            (3, 3): modules that are turned for a maneuver turn their own inertia.
         incidence: of the design; a maneuver's own takes precedence [rad].
     """
-    total, demands = TiltInertia.of(total_inertia), []
+    demands = []
     for maneuver in requirement.maneuvers:
         own = incidence if maneuver.incidence is None else maneuver.incidence
+        total = TiltInertia.of(inertia_at(own))
         reached = total.within_reach(authority(own), maneuver.tilt_per_drift)
         momentum, slew = maneuver.momentum(reached), maneuver.slew(reached)
         _, pitch = slew.swept if slew.swept.any() else slew.momentum
@@ -159,12 +178,13 @@ def spin_demands(
         speed_left = requirement.wheel_speed_max - initial_speed
         spin_inertia = per_wheel(momentum, own) / speed_left if speed_left > 0.0 else float("inf")
         torque = per_wheel(maneuver.least_torque(reached), own)
-        demands.append(SpinDemand(maneuver.name, own, momentum, spin_inertia, torque))
+        demands.append(SpinDemand.of(maneuver.name, own, momentum, spin_inertia, torque))
     if requirement.rate_change is not None:
-        momenta = rate_momenta(total, requirement.rate_change)
-        for axis, momentum in zip(AXES, momenta, strict=True):
+        total = TiltInertia.of(inertia_at(incidence))
+        for axis, momentum in zip(AXES, rate_momenta(total, requirement.rate_change), strict=True):
+            source = f"rate change, {axis}"
             spin_inertia = per_wheel(momentum, incidence) / requirement.wheel_speed_max
-            demands.append(SpinDemand(f"rate change, {axis}", incidence, momentum, spin_inertia))
+            demands.append(SpinDemand.of(source, incidence, momentum, spin_inertia))
     return tuple(demands)
 
 

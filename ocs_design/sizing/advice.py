@@ -35,12 +35,7 @@ from ocs_design.sizing.selection.bounds import (
     initial_guess,
     least_spin_inertias,
 )
-from ocs_design.sizing.selection.candidates import (
-    Candidates,
-    Guess,
-    drives_of,
-    known_pairs,
-)
+from ocs_design.sizing.selection.candidates import Candidates, Guess, drives_of, known_pairs
 from ocs_design.sizing.selection.fixed_point import solve_stepwise
 from ocs_design.sizing.selection.problem import (
     Reason,
@@ -349,7 +344,8 @@ def needed_motor(problem: SelectionProblem, model: Motor) -> NeededMotor | None:
 
     def demand(incidence: float) -> tuple[float, float]:
         """Largest torque [N m] and momentum [N m s] of a wheel."""
-        demands = spin_demands(problem.requirement, problem.robot.inertia, incidence)
+        inertia = problem.robot.inertia
+        demands = spin_demands(problem.requirement, lambda _: inertia, incidence)
         torque = max(demand.torque for demand in demands)
         momentum = max(per_wheel(demand.momentum, demand.incidence) for demand in demands)
         return torque / problem.layout.pairs, momentum / problem.layout.pairs

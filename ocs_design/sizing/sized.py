@@ -117,7 +117,7 @@ def _spin_demands(problem: SelectionProblem, chosen: Candidate) -> Iterator[Spin
             )
             momentum = maneuver.momentum(reached_inertia)
             torque = float(gauge(axes, maneuver.least_torque(reached_inertia)).busiest)
-        yield SpinDemand(demand.source, incidence, momentum, demand.spin_inertia, torque)
+        yield SpinDemand.of(demand.source, incidence, momentum, demand.spin_inertia, torque)
 
 
 def _shadow_prices(problem: SelectionProblem, chosen: Candidate) -> dict[str, float]:

@@ -20,7 +20,6 @@ from ocs_design.device.records.device import ModuleRecord, MountingRecord, OcsRe
 from ocs_design.device.records.flights import Buildable, Margin, SurvivalRecord, ValidationRecord
 from ocs_design.device.records.requirement import (
     AxisInertia,
-    DemandRecord,
     ManeuverRecord,
     RequirementRecord,
     RobotRecord,
@@ -146,11 +145,7 @@ def record_design(
             wheel_speed_max=speed,
             required_inertia=AxisInertia.of([demand.momentum for demand in sized.demands], speed),
             spin_inertia_by_hand=requirement.spin_inertia,
-            demands=tuple(
-                recorded(DemandRecord, demand, roll_momentum=roll, pitch_momentum=pitch)
-                for demand in sized.demands
-                for roll, pitch in (demand.momentum.tolist(),)
-            ),
+            demands=sized.demands,
             assumptions=(*resolved.assumptions, *housing),
             reliability=resolved.reliability,
             detection=requirement.detection,

@@ -117,7 +117,7 @@ def test_mujoco_confirms_the_demand_of_two_wheels_beside_the_trunk(axis, signs):
     spin = 1e-4
     for _ in range(8):  # the total includes the wheels' own inertia
         _, total = spun_up(trunk, pair(spin), 0.0)
-        spin = spin_demands(requirement, total, alpha)[axis].spin_inertia
+        spin = spin_demands(requirement, lambda _, total=total: total, alpha)[axis].spin_inertia
     rates, _ = spun_up(trunk, pair(spin), WHEEL_SPEED)
     assert abs(rates[axis]) == pytest.approx(RATE_CHANGE, rel=1e-6)
 
@@ -159,12 +159,12 @@ def test_zero_momentum_about_an_uncontrolled_axis_is_feasible():
 
 def test_momentum_about_an_uncontrolled_axis_is_an_infinite_demand_that_names_it():
     requirement = Requirement((), 2.0, 750.0, None)
-    roll, pitch = spin_demands(requirement, TOTAL, 0.0)
+    roll, pitch = spin_demands(requirement, lambda _: TOTAL, 0.0)
     assert (roll.source, roll.unreachable_axes) == ("rate change, roll", ("roll",))
     assert roll.spin_inertia == np.inf
     assert pitch.unreachable_axes == ()
     assert pitch.spin_inertia == pytest.approx(0.0535 * 2.0 / (2 * 750.0))
-    *_, pitch = spin_demands(requirement, TOTAL, np.pi / 2)
+    *_, pitch = spin_demands(requirement, lambda _: TOTAL, np.pi / 2)
     assert pitch.unreachable_axes == ("pitch",)
 
 
@@ -181,7 +181,9 @@ def test_each_maneuver_has_its_own_incidence():
         Flip(name="flip", gravity=1.62, incidence=0.0, jump_height=1.0, angle=-6.28, duration=2.0),
     )
     alpha = np.radians(40.0)
-    push, drop, flip = spin_demands(Requirement(maneuvers, None, 750.0, None), TOTAL, alpha)
+    push, drop, flip = spin_demands(
+        Requirement(maneuvers, None, 750.0, None), lambda _: TOTAL, alpha
+    )
     np.testing.assert_allclose(push.momentum, [0.01, 0.04])
     assert push.spin_inertia == pytest.approx(
         (0.01 / np.sin(alpha) + 0.04 / np.cos(alpha)) / (2 * 750.0)
@@ -196,5 +198,5 @@ def test_the_demand_of_a_braked_total_is_the_corrected_bound():
     required = corrected_bound(INERTIA, RATE_CHANGE, WHEEL_SPEED)
     requirement = Requirement((), RATE_CHANGE, WHEEL_SPEED, None)
     total = np.diag([0.03, INERTIA + required, 0.068])
-    _, pitch = spin_demands(requirement, total, 0.0)
+    _, pitch = spin_demands(requirement, lambda _: total, 0.0)
     assert 2 * pitch.spin_inertia == pytest.approx(required, rel=1e-14)

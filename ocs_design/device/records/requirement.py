@@ -11,6 +11,7 @@ from ocs_design.common.arrays import FloatArray, Matrix, Vector, matrix, vector
 from ocs_design.common.errors import OcsError
 from ocs_design.common.files import AnyPath
 from ocs_design.common.records import recorded
+from ocs_design.requirement.bound import SpinDemand
 from ocs_design.requirement.kinds import MANEUVER_KINDS, kind_of
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.values import Choice, Quantities, Quantity
@@ -133,18 +134,6 @@ class ManeuverRecord:
 
 
 @dataclass(frozen=True, kw_only=True)
-class DemandRecord:
-    """Demand of one source at its incidence angle; see `requirement.bound.SpinDemand`."""
-
-    source: str
-    incidence: float
-    roll_momentum: float
-    pitch_momentum: float
-    spin_inertia: float
-    torque: float
-
-
-@dataclass(frozen=True, kw_only=True)
 class AxisInertia:
     """Inertia that the wheels must provide about each axis, in the one-wheel model [kg m^2]."""
 
@@ -172,7 +161,7 @@ class RequirementRecord:
     wheel_speed_max: float
     required_inertia: AxisInertia
     spin_inertia_by_hand: float | None
-    demands: tuple[DemandRecord, ...]
+    demands: tuple[SpinDemand, ...]
     assumptions: tuple[str, ...]
     reliability: float | None = None
     detection: float | None = None

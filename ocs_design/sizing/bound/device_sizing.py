@@ -112,14 +112,7 @@ def device_demands(
         """Inertia of robot and device with the wheels at this incidence [kg m^2], shape (3, 3)."""
         return braked_total(problem, shape, angle).inertia
 
-    found: list[SpinDemand] = []
-    for maneuver in problem.requirement.maneuvers:
-        alone = replace(problem.requirement, maneuvers=(maneuver,), rate_change=None)
-        at = incidence if maneuver.incidence is None else maneuver.incidence
-        found.extend(spin_demands(alone, inertia_at(at), at))
-    by_rate = replace(problem.requirement, maneuvers=())
-    found.extend(spin_demands(by_rate, inertia_at(incidence), incidence))
-    return tuple(found)
+    return spin_demands(problem.requirement, inertia_at, incidence)
 
 
 def best_incidences(

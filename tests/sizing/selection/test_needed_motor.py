@@ -67,7 +67,7 @@ def test_the_needed_motor_is_feasible_and_a_weaker_one_is_not(seed):
     # At least as strong as the robot alone requires: 4 I theta / T^2 over both wheels and their
     # axes (docs/theory.md, What a motor can do).
     requirement = replace(problem.requirement, wheel_speed_max=1.0)
-    demands = spin_demands(requirement, problem.robot.inertia, problem.incidence)
+    demands = spin_demands(requirement, lambda _: problem.robot.inertia, problem.incidence)
     assert need.peak_torque > max(demand.torque for demand in demands)
 
 
