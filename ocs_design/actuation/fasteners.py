@@ -213,9 +213,9 @@ class Fastening:
         joint: that they make.
         depth: least thread engagement in diameters.
         strength: their property class.
-        least: least engagement in the part they are screwed into, where its maker gives one [m].
-        most: largest engagement there [m]: longer ones are shortened; inf: any.
-        held: name of the piece that they hold, if its joint is made in several shapes.
+        engagement_min: least in the part they are screwed into, where its maker gives one [m].
+        engagement_max: largest there [m]: longer ones are shortened; inf: any.
+        piece: name of the piece that they hold, if its joint is made in several shapes.
         several_lengths: whether the joint also has screws of other lengths.
     """
 
@@ -225,9 +225,9 @@ class Fastening:
     joint: BoltedJoint
     depth: float = 1.0
     strength: str = USUAL_CLASS
-    least: float = 0.0
-    most: float = inf
-    held: str = ""
+    engagement_min: float = 0.0
+    engagement_max: float = inf
+    piece: str = ""
     several_lengths: bool = False
 
     @property
@@ -239,25 +239,25 @@ class Fastening:
     @property
     def length(self) -> float:
         """Length of each screw under its head [m]."""
-        depth = max(self.depth, self.least / self.screw.diameter)
+        depth = max(self.depth, self.engagement_min / self.screw.diameter)
         return self.screw.length_through(self.thickness, depth)
 
     @property
     def engagement(self) -> float:
         """Length of each that is in the part they are screwed into, once shortened [m]."""
-        return min(self.length - self.thickness, self.most)
+        return min(self.length - self.thickness, self.engagement_max)
 
     @property
     def shortened(self) -> float | None:
         """Length to which each is cut [m]; None: it fits as it is bought."""
-        longest = self.thickness + self.most
+        longest = self.thickness + self.engagement_max
         return longest if self.length > longest else None
 
     @property
     def name(self) -> str:
         """Wording of the joint."""
-        if self.held:
-            return f"{self.held.replace('_', ' ')} on trunk"
+        if self.piece:
+            return f"{self.piece.replace('_', ' ')} on trunk"
         return self.joint.value
 
     @property
@@ -272,10 +272,13 @@ class Fastening:
             text += "; longer if the trunk's thread starts deeper"
         elif self.joint.in_motor:
             text += "; check the depth of the motor's thread"
-            if self.least > 0.0:
-                text += f", its maker specifies {1e3 * self.least:.4g} to {1e3 * self.most:.4g} mm"
-            elif isfinite(self.most):
-                text += f", a CAD model has {1e3 * (self.most + OFF_BOTTOM):.4g} mm"
+            if self.engagement_min > 0.0:
+                text += (
+                    f", its maker specifies {1e3 * self.engagement_min:.4g} to "
+                    f"{1e3 * self.engagement_max:.4g} mm"
+                )
+            elif isfinite(self.engagement_max):
+                text += f", a CAD model has {1e3 * (self.engagement_max + OFF_BOTTOM):.4g} mm"
             if cut_to is not None:
                 text += f": shorten them to {1e3 * cut_to:.3g} mm"
         elif cut_to is not None:

@@ -135,7 +135,7 @@ class _Search(Table):
         lane: index of each in the answer. demand: of each.
         h: value to try. low: largest known to be too small, or the start.
         high: smallest known to suffice, or the top. top: largest allowed.
-        found: whether any h is known to suffice.
+        bracketed: whether any h is known to suffice.
     """
 
     lane: NDArray[np.intp]
@@ -144,20 +144,20 @@ class _Search(Table):
     low: FloatArray
     high: FloatArray
     top: FloatArray
-    found: NDArray[np.bool_]
+    bracketed: NDArray[np.bool_]
 
     def advance(self, answer: FloatArray) -> "_Search":
         """Try h, write solved lanes into `answer`, and keep the undecided ones."""
         capacity = capability(self.demand, self.h)
         enough = capacity.sweep >= self.demand.sweep
         low, high = np.where(enough, self.low, self.h), np.where(enough, self.h, self.high)
-        found = self.found | enough
+        bracketed = self.bracketed | enough
         newton = newton_step(self.demand, self.h, capacity)
         inside = (newton > low) & (newton < high)
-        next_h = np.where(found & ~inside, np.sqrt(low * high), np.minimum(newton, self.top))
+        next_h = np.where(bracketed & ~inside, np.sqrt(low * high), np.minimum(newton, self.top))
         # Nothing below the start is considered; a closed bracket's upper end is the root.
-        closed = (enough & (self.h <= low)) | (found & (high - low <= _DIGITS * high))
+        closed = (enough & (self.h <= low)) | (bracketed & (high - low <= _DIGITS * high))
         solved = closed | (np.abs(newton - self.h) <= _DIGITS * self.h)
         answer[self.lane[solved]] = np.where(closed, high, newton)[solved]
         keep = ~(solved | (~enough & (self.h >= self.top)))
-        return replace(self, h=next_h, low=low, high=high, found=found).take(keep)
+        return replace(self, h=next_h, low=low, high=high, bracketed=bracketed).take(keep)

@@ -92,7 +92,9 @@ def gauge(axes: ArrayLike, momentum: ArrayLike) -> Gauge:
     required = np.ascontiguousarray(np.moveaxis(required, -1, 0))
     normals = _normals(axes)
     length = np.sqrt((normals**2).sum(axis=0))
-    axis_length, momentum_length = (np.sqrt((each**2).sum(axis=0)) for each in (axes, required))
+    axis_length, momentum_length = (
+        np.sqrt((vectors**2).sum(axis=0)) for vectors in (axes, required)
+    )
     levers = (normals[:, :, None] * axes[:, None]).sum(axis=0)
     width = np.abs(levers).sum(axis=1)
     is_facet = width > _ROUNDING * length * axis_length.max(axis=0)
@@ -167,7 +169,7 @@ def _normals(axes: FloatArray) -> FloatArray:
     in_plane = np.cross(across[:, :, None], axes[:, None], axis=0)
     in_plane = in_plane.reshape(3, -1, *axes.shape[2:])
     # Directions across a single axis, which it does not span.
-    beside = np.stack([np.cross(each, axes, axis=0) for each in np.eye(3)], axis=1)
+    beside = np.stack([np.cross(axis, axes, axis=0) for axis in np.eye(3)], axis=1)
     beside = beside.reshape(3, -1, *axes.shape[2:])
     return np.concatenate([across, in_plane, axes, beside], axis=1)
 

@@ -228,9 +228,9 @@ def round_outwards(value: float, *, upwards: bool, digits: int = 3) -> float:
 
 def _factor(unit: str, dimension: Dimension, text: str, where: str) -> Fraction:
     """Exact SI value of `unit`, which must measure `dimension`."""
-    found = _UNIT_OF_SPELLING.get(_normalised(unit))
+    known_unit = _UNIT_OF_SPELLING.get(_normalised(unit))
     hint = f"Units of {dimension}: {_known(dimension)}; a bare number is in {si_unit(dimension)}."
-    if found is None:
+    if known_unit is None:
         pack = _PACK.fullmatch(text) if dimension is Dimension.VOLTAGE else None
         if pack is not None:
             count = int(pack[1])
@@ -251,11 +251,12 @@ def _factor(unit: str, dimension: Dimension, text: str, where: str) -> Fraction:
                 hint = f"Did you mean {' or '.join(meant)}? {hint}"
         what = "contains a comma" if "," in unit else f"has the unknown unit {unit!r}"
         raise QuantityError(f"{where}: {text.strip()!r} {what}", hint=hint)
-    if found[0] is not dimension:
+    if known_unit[0] is not dimension:
         raise QuantityError(
-            f"{where}: {text.strip()!r} has a unit of {found[0]}, not of {dimension}", hint=hint
+            f"{where}: {text.strip()!r} has a unit of {known_unit[0]}, not of {dimension}",
+            hint=hint,
         )
-    return UNITS[dimension][found[1]]
+    return UNITS[dimension][known_unit[1]]
 
 
 def _normalised(unit: str) -> str:

@@ -39,7 +39,7 @@ class _Figure(NamedTuple):
     """A figure of a design, and the value that follows from others of the same design.
 
     Attributes:
-        key: in `design.json`. stated: value there. found: value from the others.
+        key: in `design.json`. recorded: value there. computed: value from the others.
         unit: of both; empty: words or plain numbers.
         basis: text on the figures from which `computed` follows.
     """

@@ -95,7 +95,7 @@ def foot_screws(device: Device, module: Module) -> Fastening:
     if thread >= screws.screw.least_thread:
         return replace(screws, depth=thread / screws.screw.diameter)
     cut = 1e-4 * floor(1e4 * (through - longer) + 1e-6)
-    return replace(screws, most=cut - screws.thickness)
+    return replace(screws, engagement_max=cut - screws.thickness)
 
 
 def counted_foot_screws(device: Device, module: Module) -> Fastening:

@@ -97,7 +97,7 @@ class PedestalKind:
     @property
     def screws(self) -> Fastening:
         """Screws that fasten one pedestal to the trunk."""
-        return replace(self.alike[0].base_screws, held=self.name)
+        return replace(self.alike[0].base_screws, piece=self.name)
 
 
 def pedestal_kinds(device: Device) -> tuple[PedestalKind, ...]:

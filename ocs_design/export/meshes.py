@@ -178,8 +178,8 @@ def primitive_mesh(kind: int, size: FloatArray) -> Mesh | None:
             sides.append((1, 5, 7, 3))
             triangles = [three for a, b, c, d in sides for three in ((a, b, c), (a, c, d))]
             return Mesh(signs * size, np.array(triangles, dtype=np.int64))
-        case mjtGeom.mjGEOM_SPHERE | mjtGeom.mjGEOM_ELLIPSOID as found:
-            radii = size if found == mjtGeom.mjGEOM_ELLIPSOID else np.full(3, r)
+        case mjtGeom.mjGEOM_SPHERE | mjtGeom.mjGEOM_ELLIPSOID as ball_kind:
+            radii = size if ball_kind == mjtGeom.mjGEOM_ELLIPSOID else np.full(3, r)
             ball = _revolved(np.concatenate([mirrored, arc]), PRIMITIVE_SECTIONS)
             return Mesh.of_corners(ball * radii)
         case mjtGeom.mjGEOM_CYLINDER:

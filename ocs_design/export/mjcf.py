@@ -196,7 +196,7 @@ def precise_xml(spec: mujoco.MjSpec, model: mujoco.MjModel, *, assets: str) -> s
             continue
         elements = [e for e in top.iter() if e is not top and (e.tag in tags or not tags)]
         # Matched by name if there is one, else by position.
-        named = {each.name: each for each in objects if getattr(each, "name", "")}
+        named = {item.name: item for item in objects if getattr(item, "name", "")}
         for element, same_place in zip(elements, objects, strict=False):
             source = named.get(element.get("name", ""), same_place)
             sources = [source]

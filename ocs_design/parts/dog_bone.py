@@ -131,11 +131,11 @@ class DogBone:
 
     def holds(self, points: FloatArray) -> NDArray[np.bool_]:
         """Whether points, x and y of shape (n, 2) [m], are within it, shape (n,)."""
-        found = np.zeros(len(points), dtype=bool)
+        inside = np.zeros(len(points), dtype=bool)
         for off, along in directions(self.arms):
             out, aside = np.array([[off, along], [along, -off]]) @ (points - [self.x, 0.0]).T
-            found |= (out >= 0.0) & (np.abs(aside) <= self.half_width(out))
-        return found
+            inside |= (out >= 0.0) & (np.abs(aside) <= self.half_width(out))
+        return inside
 
     def half_width(self, across: FloatArray) -> FloatArray:
         """Half its width at distances along y from its middle, 0 beyond its ends [m]."""

@@ -112,29 +112,29 @@ def gear_moments(gear: Gear, foot_plate: float) -> MassMoments[float]:
     return point(gear.mass).shifted(-(foot_plate + room.depth / 2.0), room.center)
 
 
-def by_floor(motor: AnyMotor, gear: Gear, mount: MotorMount) -> MassMoments[float]:
+def moments_at_floor(motor: AnyMotor, gear: Gear, mount: MotorMount) -> MassMoments[float]:
     """Moments of parts attached to the housing's floor, about the middle of its outside.
 
     Screws and gear, minus the mount's holes through floor and plate, and a motor behind the plate.
     They are the same for any wheel.
     """
-    held = gear_moments(gear, mount.foot_plate) + mount.by_floor()
+    held = gear_moments(gear, mount.foot_plate) + mount.moments_at_floor()
     if mount.cage is not None:
         return held
     middle = mount.foot_plate + mount.gap + (motor.length or 0.0) / 2.0
     return held + drive_moments(motor).shifted(-middle, mount.up)
 
 
-def by_wheel(motor: AnyMotor, mount: MotorMount) -> MassMoments[float]:
+def moments_at_wheel(motor: AnyMotor, mount: MotorMount) -> MassMoments[float]:
     """Moments of parts positioned by the wheel's hub, about the wheel's middle.
 
     Screws, and a motor in its cage with the cage's floor; for the posts see `Posts`. They are the
     same for any rim.
     """
     if mount.cage is None:
-        return mount.by_wheel()
+        return mount.moments_at_wheel()
     middle = mount.cage.front + (motor.length or 0.0) / 2.0
-    return mount.by_wheel() + drive_moments(motor).shifted(-middle, 0.0)
+    return mount.moments_at_wheel() + drive_moments(motor).shifted(-middle, 0.0)
 
 
 def carrier_of(
@@ -150,7 +150,9 @@ def carrier_of(
     """All stationary parts around a wheel of this outer radius and height [m]."""
     mount = mount_of(motor, gear.room, foot_plate, on_bell=on_bell)
     height = max(height, mount.room)
-    held = by_floor(motor, gear, mount).shifted(-half_height(height), 0.0) + by_wheel(motor, mount)
+    held = moments_at_floor(motor, gear, mount).shifted(
+        -half_height(height), 0.0
+    ) + moments_at_wheel(motor, mount)
     shell = Printed(mount.holes.reach, NO_POSTS, guard_wall, foot_plate)
     around = shell.moments(outer_radius, height)
     return Carrier.of(held + mount.posts.moments(height) + around)

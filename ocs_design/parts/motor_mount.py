@@ -76,14 +76,14 @@ class Screwed:
         along: position of the undersides of their heads, from the outside of the housing's floor
             [m].
         towards: 1: their tips point to the wheel, -1: away from it.
-        by_wheel: whether `along` is measured from the wheel's middle instead.
+        from_wheel: whether `along` is measured from the wheel's middle instead.
     """
 
     fastening: Fastening
     circle: BoltCircle
     along: float
     towards: float
-    by_wheel: bool = False
+    from_wheel: bool = False
 
     def moments(self) -> MassMoments[float]:
         """Moments as points, about the origin of `along`.
@@ -161,8 +161,8 @@ class MotorMount:
     @property
     def head_reach(self) -> float:
         """Radius within which the heads in the housing stay [m]; 0: there are none."""
-        found = self.holes.screws
-        return 0.0 if found is None else found.radius + screw(found.thread).head_diameter / 2.0
+        circle = self.holes.screws
+        return 0.0 if circle is None else circle.radius + screw(circle.thread).head_diameter / 2.0
 
     def behind(self, motor: AnyMotor) -> Behind[float]:
         """Extent behind the plate, with the motor."""
@@ -173,16 +173,16 @@ class MotorMount:
             return Behind(0.0, self.cage.reach, self.cage.back + heads)
         return Behind(self.gap + (motor.length or 0.0), (motor.diameter or 0.0) / 2.0)
 
-    def by_floor(self) -> MassMoments[float]:
+    def moments_at_floor(self) -> MassMoments[float]:
         """Moments of screws minus holes, about the middle of the outside of the floor."""
         walls = self.holes.cut_out(PANEL + self.foot_plate)
         total = walls.shifted((PANEL - self.foot_plate) / 2.0, 0.0)
-        return sum((screws.moments() for screws in self.screwed if not screws.by_wheel), total)
+        return sum((screws.moments() for screws in self.screwed if not screws.from_wheel), total)
 
-    def by_wheel(self) -> MassMoments[float]:
+    def moments_at_wheel(self) -> MassMoments[float]:
         """Moments of screws and of the cage's floor about the wheel's middle, without `posts`."""
         total = point(0.0) if self.cage is None else self.cage.floor_moments()
-        return sum((screws.moments() for screws in self.screwed if screws.by_wheel), total)
+        return sum((screws.moments() for screws in self.screwed if screws.from_wheel), total)
 
 
 def mount_of(
@@ -221,7 +221,7 @@ def mount_of(
         depth = CLASSES[rotor.screws].depth
         # Their thread counts in the joint, all of it.
         fastening = _fastening(rotor, BOLTED_HUB_HEIGHT, BoltedJoint.WHEEL, depth, deepest=True)
-        wheel = (Screwed(fastening, rotor, BOLTED_HUB_HEIGHT / 2.0, -1.0, by_wheel=True),)
+        wheel = (Screwed(fastening, rotor, BOLTED_HUB_HEIGHT / 2.0, -1.0, from_wheel=True),)
     if stator is not None and mounting.stator_face is Face.OUTPUT:
         held = _through_walls(stator, foot_plate, BoltedJoint.MOTOR, 1.0)
         holes, through = screwed_by_face(mounting, stator), inf
@@ -249,7 +249,7 @@ def mount_of(
     assert passage.screws is not None
     on_plate = _through_walls(passage.screws, foot_plate, BoltedJoint.CAGE, IN_PLASTIC)
     fastening = _fastening(stator, cage.floor, BoltedJoint.MOTOR_IN_CAGE, 1.0)
-    held = Screwed(fastening, stator, -cage.back, 1.0, by_wheel=True)
+    held = Screwed(fastening, stator, -cage.back, 1.0, from_wheel=True)
     return MotorMount(passage, cage, (*wheel, held, on_plate), foot_plate=foot_plate)
 
 
@@ -310,15 +310,15 @@ def _fastening(
         depth: wanted engagement over the thread's diameter, as far as the thread is deep enough.
         deepest: use the full depth: cut screws that are too long instead of taking a shorter size.
     """
-    held, least, most = screw(circle.thread), circle.depth, circle.deepest
-    reach = min(depth * held.diameter, most) / held.diameter
+    kind, least, most = screw(circle.thread), circle.depth, circle.deepest
+    reach = min(depth * kind.diameter, most) / kind.diameter
     known = reach, circle.screws, least or 0.0, most
-    found = Fastening(held, circle.bolts, thickness, joint, *known)
-    if least is None and not deepest and found.length > thickness + most:
+    fastening = Fastening(kind, circle.bolts, thickness, joint, *known)
+    if least is None and not deepest and fastening.length > thickness + most:
         thread = longest_within(thickness + most) - thickness
-        if thread >= held.least_thread:
-            return replace(found, depth=thread / held.diameter)
-    return found
+        if thread >= kind.least_thread:
+            return replace(fastening, depth=thread / kind.diameter)
+    return fastening
 
 
 @dataclass(frozen=True)

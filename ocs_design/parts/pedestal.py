@@ -222,15 +222,17 @@ def strengthened(pedestal: Pedestal, mass: float, above: float | None = None) ->
         above: required height of the wheel's middle above the underside, to which the foot is moved
             along the seat [m]; None: the foot stays where it is.
     """
-    found = replace(pedestal, base=BASE_THICKNESS)
+    stronger = replace(pedestal, base=BASE_THICKNESS)
     for _ in range(_ROUNDS):
         if above is not None:
-            up = above - found.base - found.wheel_height * cos(found.lean)
-            found = replace(found, middle=up / sin(found.lean))
-        if found.base >= _flange_needed(found, mass):
+            up = above - stronger.base - stronger.wheel_height * cos(stronger.lean)
+            stronger = replace(stronger, middle=up / sin(stronger.lean))
+        if stronger.base >= _flange_needed(stronger, mass):
             break
-        found = replace(found, base=found.base + 1e-4)
-    return replace(found, thickness=max(LEAST_SEAT, ceil(1e4 * _seat_needed(found, mass)) / 1e4))
+        stronger = replace(stronger, base=stronger.base + 1e-4)
+    return replace(
+        stronger, thickness=max(LEAST_SEAT, ceil(1e4 * _seat_needed(stronger, mass)) / 1e4)
+    )
 
 
 def _seat_needed(pedestal: Pedestal, mass: float) -> float:

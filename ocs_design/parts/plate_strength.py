@@ -11,12 +11,7 @@ from typing import TypeAlias
 import numpy as np
 
 from ocs_design.common.arrays import FloatArray
-from ocs_design.parts.carrier_plate import (
-    ALUMINIUM,
-    SAFETY,
-    SHEAR_MODULUS,
-    CarrierPlate,
-)
+from ocs_design.parts.carrier_plate import ALUMINIUM, SAFETY, SHEAR_MODULUS, CarrierPlate
 from ocs_design.parts.joints import TIGHTENING_FACTOR, pattern_use, screw_use
 from ocs_design.parts.printed import SHOCK
 
@@ -73,9 +68,8 @@ def plate_stresses(
     if len(plate.rows) > 1:
         # On a mast all plates are alike.
         distinct = plate.single_plates[:1] if plate.mast else plate.single_plates
-        each = [plate_stresses(one, thicknesses, mass, height) for one in distinct]
-        found: FloatArray = np.max(each, axis=0)
-        return found
+        stresses = [plate_stresses(one, thicknesses, mass, height) for one in distinct]
+        return np.asarray(np.max(stresses, axis=0))
     across = np.linspace(plate.support, plate.across, _SECTIONS)
     widths, arms = plate.net_width(across), plate.across - across
     down = bending_stress(mass, arms[:, None], widths[:, None], thicknesses).max(axis=0)

@@ -99,10 +99,10 @@ class Polygon(Generic[Real]):
     @property
     def moments(self) -> MassMoments[Real]:
         """Moments about the origin, of unit density: sum over triangles from it to each edge."""
-        found: list[Any] = [0.0] * 6
+        sums: list[Any] = [0.0] * 6
         for (a, b), (c, d) in zip(self.corners, self.corners[1:] + self.corners[:1], strict=True):
             twice: Any = a * d - c * b
-            each = (
+            terms = (
                 twice / 2.0,
                 twice * (a + c) / 6.0,
                 twice * (b + d) / 6.0,
@@ -110,8 +110,8 @@ class Polygon(Generic[Real]):
                 twice * (b**2 + b * d + d**2) / 12.0,
                 twice * (a * d + 2.0 * a * b + 2.0 * c * d + c * b) / 24.0,
             )
-            found = [one + other for one, other in zip(found, each, strict=True)]
-        area, x, y, xx, yy, xy = found
+            sums = [one + other for one, other in zip(sums, terms, strict=True)]
+        area, x, y, xx, yy, xy = sums
         return flat(area, xx, yy, x=x, y=y, xy=xy)
 
     def outline(self) -> Outline:

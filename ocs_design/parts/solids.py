@@ -170,12 +170,12 @@ class Relief:
 
     def height(self, x: FloatArray, y: FloatArray) -> FloatArray:
         """Heights of the upper face at points of the rectangle [m]."""
-        (m, n), found = self.heights.shape, []
+        (m, n), cells = self.heights.shape, []
         for of, low, high, count in ((x, self.left, self.right, m), (y, self.bottom, self.top, n)):
             cell = (np.asarray(of) - low) / (high - low) * (count - 1)
             index = np.clip(np.floor(cell), 0, count - 2).astype(np.intp)
-            found.append((index, cell - index))
-        (i, u), (j, v) = found
+            cells.append((index, cell - index))
+        (i, u), (j, v) = cells
         h = self.heights
         first, last = h[i, j], h[i + 1, j + 1]
         corner = np.where(u >= v, h[i + 1, j], h[i, j + 1])
@@ -208,16 +208,16 @@ class Relief:
         wide, tall = float(xs[1] - xs[0]), float(ys[1] - ys[0])
         share = np.array([[1.0, 1.0, 1.0], [1.8, 0.6, 0.6], [0.6, 1.8, 0.6], [0.6, 0.6, 1.8]]) / 3.0
         weight = np.array([-27.0, 25.0, 25.0, 25.0]) / 48.0 * wide * tall / 2.0
-        found = []
+        points = []
         for corners in (((0, 0), (1, 0), (1, 1)), ((0, 0), (0, 1), (1, 1))):
             u, v = (share @ np.array(corners)).T
             grid = xs[:-1, None, None] + wide * u, ys[None, :-1, None] + tall * v, weight
-            found.append(np.stack(np.broadcast_arrays(*grid)).reshape(3, -1))
+            points.append(np.stack(np.broadcast_arrays(*grid)).reshape(3, -1))
         around = even_points(0.0, 1.0, 16, 64)
         for middle_x, middle_y, radius in self.holes:
             x, y = (radius * around + [middle_x, middle_y]).T
-            found.append(np.stack([x, y, np.full(len(x), -pi * radius**2 / len(x))]))
-        x, y, area = np.concatenate(found, axis=1)
+            points.append(np.stack([x, y, np.full(len(x), -pi * radius**2 / len(x))]))
+        x, y, area = np.concatenate(points, axis=1)
         return x, y, area
 
 
@@ -283,10 +283,10 @@ class Part(Generic[Real]):
 
     def mass_properties(self) -> MassProperties:
         """Mass properties of one part in its own frame, in closed form."""
-        found: MassMoments[Any] = self.moments()
-        com = np.array([found.x, found.y, found.z]) / found.mass
-        about = np.array(found.second) - found.mass * np.outer(com, com)
-        return MassProperties(float(found.mass), com, np.trace(about) * np.eye(3) - about)
+        moments: MassMoments[Any] = self.moments()
+        com = np.array([moments.x, moments.y, moments.z]) / moments.mass
+        about = np.array(moments.second) - moments.mass * np.outer(com, com)
+        return MassProperties(float(moments.mass), com, np.trace(about) * np.eye(3) - about)
 
 
 def total(parts: Iterable[Part[float]]) -> MassProperties:
@@ -335,9 +335,9 @@ class Carrier:
     def inertia(self) -> FloatArray:
         """Inertia about its centre of mass in the module's frame [kg m^2], shape (3, 3)."""
         across, upright = self.transverse_inertia, self.vertical_inertia
-        found = np.diag([across, self.axial_inertia, across if upright is None else upright])
-        found[1, 2] = found[2, 1] = self.product_of_inertia
-        return found
+        tensor = np.diag([across, self.axial_inertia, across if upright is None else upright])
+        tensor[1, 2] = tensor[2, 1] = self.product_of_inertia
+        return tensor
 
     def mass_properties(self) -> MassProperties:
         """Mass properties in the module's frame."""

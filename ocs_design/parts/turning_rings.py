@@ -118,20 +118,20 @@ class TurningRings:
         # Displacements are nine orders of magnitude below stresses.
         scale = np.abs(matrix).max(axis=1)
         columns = np.abs(matrix / scale[:, None]).max(axis=0)
-        found = np.linalg.solve(matrix / scale[:, None] / columns, right / scale) / columns
-        return cls(tuple(rings), speed, found.reshape(count, 2))
+        constants = np.linalg.solve(matrix / scale[:, None] / columns, right / scale) / columns
+        return cls(tuple(rings), speed, constants.reshape(count, 2))
 
     def displacement(self, ring: int, radius: float) -> float:
         """Radial displacement of one ring at a radius [m]."""
-        each = self.rings[ring]
-        moved = each._rows(radius)[0]
-        return float(self.constants[ring] @ moved + each._rotation_terms(self.speed, radius)[0])
+        own_ring = self.rings[ring]
+        moved = own_ring._rows(radius)[0]
+        return float(self.constants[ring] @ moved + own_ring._rotation_terms(self.speed, radius)[0])
 
     def stresses(self, ring: int, radius: float | FloatArray) -> tuple[FloatArray, FloatArray]:
         """Radial and hoop stress in one ring [Pa]."""
-        each, (a, b) = self.rings[ring], self.constants[ring]
-        of_a, of_b = each._rows(radius)[1]
-        spun = each._rotation_terms(self.speed, radius)
+        own_ring, (a, b) = self.rings[ring], self.constants[ring]
+        of_a, of_b = own_ring._rows(radius)[1]
+        spun = own_ring._rotation_terms(self.speed, radius)
         return np.asarray(a * of_a + b * of_b + spun[1]), np.asarray(a * of_a - b * of_b + spun[2])
 
     def pressure(self, joint: int) -> float:
@@ -140,8 +140,8 @@ class TurningRings:
 
     def peak(self, ring: int) -> float:
         """Largest von Mises stress of one ring [Pa]."""
-        each = self.rings[ring]
-        radial, hoop = self.stresses(ring, np.linspace(each.inner, each.outer, _POINTS))
+        own_ring = self.rings[ring]
+        radial, hoop = self.stresses(ring, np.linspace(own_ring.inner, own_ring.outer, _POINTS))
         return float(np.sqrt(radial**2 - radial * hoop + hoop**2).max())
 
     def peak_at_hole(self, ring: int, radius: float) -> float:

@@ -77,14 +77,14 @@ class Faults(list[str]):
         self, table: Mapping[str, object], values: Mapping[str, Value[Any]], where: str
     ) -> dict[str, Any]:
         """Value of each field, None where invalid; faults and unknown keys are recorded."""
-        found: dict[str, Any] = {}
+        parsed: dict[str, Any] = {}
         for name, raw in table.items():
             path = f"{where}.{name}"
             if name in values:
-                found[name] = self.read(values[name], raw, path)
+                parsed[name] = self.read(values[name], raw, path)
             else:
                 self.unknown(path, name, tuple(values))
-        return found
+        return parsed
 
     def table(self, raw: object, where: str) -> Mapping[str, object]:
         """`raw` if it is a table; otherwise an empty one, and the fault recorded."""

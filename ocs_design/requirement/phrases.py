@@ -191,25 +191,25 @@ _TILT = re.compile(rf"\s*(.+?)\s*\b({'|'.join(TILTED)})\b", re.IGNORECASE)
 @form(f"{TILT.takes}; of pitch, or as in '20deg roll', '20deg left', '10deg roll 20deg pitch'")
 def tilt_text(raw: object, where: str) -> Tilt:
     """A tilt: an angle of pitch, or angles with their axes."""
-    found: dict[str, float] = {}
+    angles: dict[str, float] = {}
     rest = raw
     while isinstance(rest, str) and (part := _TILT.match(rest)):
         angle, word = part.groups()
         axis, sign = TILTED[word.casefold()]
-        if axis in found:
+        if axis in angles:
             raise SpecificationError(
                 f"{where}: {shortened(raw)} gives {axis} twice",
                 hint="Write '20deg roll', or '10deg roll 20deg pitch'.",
             )
-        found[axis] = sign * TILT.read(angle, where)
+        angles[axis] = sign * TILT.read(angle, where)
         rest = rest[part.end() :]
-    if not found:
+    if not angles:
         return Tilt(0.0, TILT.read(raw, where))
     if isinstance(rest, str) and rest.strip():
         raise SpecificationError(
             f"{where}: {shortened(raw)} is not a tilt", hint="Write '20deg' or '20deg roll'."
         )
-    return Tilt(found.get("roll", 0.0), found.get("pitch", 0.0))
+    return Tilt(angles.get("roll", 0.0), angles.get("pitch", 0.0))
 
 
 @dataclass(frozen=True)
@@ -266,12 +266,12 @@ class AboutText:
                 f"{where}: {shortened(raw)} must give each value with its axis",
                 hint=f"Write {self.example!r}.",
             )
-        found = {
+        amounts = {
             axis: self.values[axis].read(value, f"{where}, {axis}")
             for axis, value in zip(words, specified, strict=True)
         }
         return About(
-            **{axis: found.get(axis, 0.0) for axis in self.values},
+            **{axis: amounts.get(axis, 0.0) for axis in self.values},
             duration=TIME.read(time, f"{where}, in") if time else None,
             unit=self.unit,
         )

@@ -108,7 +108,7 @@ def _checked(content: Mapping[str, object], name: str) -> Specification:
     sections: dict[str, Any] = {}
     for title, section in SECTIONS.items():
         table = faults.table(content.get(title, {}), title)
-        values = {key: found.value for key, found in keys_of(section).items()}
+        values = {name: key.value for name, key in keys_of(section).items()}
         sections[title] = section(**faults.fields(table, values, title))
     tables, maneuvers = content.get("maneuver", []), []
     if not isinstance(tables, list):

@@ -88,9 +88,9 @@ SECTIONS: Mapping[str, type] = {
 def all_keys() -> Mapping[str, Key]:
     """Every key by its path, as in `flywheel.r_max`, in the order of the file."""
     return {
-        f"{name}.{key}": found
-        for name, section in SECTIONS.items()
-        for key, found in keys_of(section).items()
+        f"{title}.{name}": key
+        for title, section in SECTIONS.items()
+        for name, key in keys_of(section).items()
     }
 
 
@@ -162,4 +162,4 @@ def specification_from_options(options: Mapping[str, object]) -> Specification:
             sections[section][name] = faults.read(key.value, raw, option)
     if faults:
         raise UsageError("\n".join(faults))
-    return Specification(**{name: SECTIONS[name](**found) for name, found in sections.items()})
+    return Specification(**{name: SECTIONS[name](**keys) for name, keys in sections.items()})

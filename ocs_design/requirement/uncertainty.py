@@ -114,16 +114,16 @@ class Spread:
 
     def read(self, raw: object, where: str) -> Distribution:
         """Value that `raw` stands for (`Value.read`)."""
-        found: Distribution
+        distribution: Distribution
         match = _FORM.fullmatch(raw) if isinstance(raw, str) else None
         if match is not None:
             first, second = (
                 parse_quantity(text.strip(), self.dimension, where) for text in match.groups()[1:]
             )
-            found = Normal(first, second) if match[1] == "normal" else Uniform(first, second)
-            if isinstance(found, Normal) and found.deviation < 0.0:
+            distribution = Normal(first, second) if match[1] == "normal" else Uniform(first, second)
+            if isinstance(distribution, Normal) and distribution.deviation < 0.0:
                 raise QuantityError(f"{where}: {raw}: the deviation must be zero or positive")
-            if isinstance(found, Uniform) and found.high < found.low:
+            if isinstance(distribution, Uniform) and distribution.high < distribution.low:
                 raise QuantityError(f"{where}: {raw}: the lower end comes first")
         elif isinstance(raw, str) and "(" in raw:
             raise QuantityError(
@@ -131,10 +131,10 @@ class Spread:
                 hint="Write normal(MEAN, DEVIATION), uniform(LOW, HIGH) or one quantity.",
             )
         else:
-            found = Constant(parse_quantity(raw, self.dimension, where))
+            distribution = Constant(parse_quantity(raw, self.dimension, where))
         for end, limit, sense in (
-            (found.at(0.0), self.least, -1.0),
-            (found.at(1.0), self.most, 1.0),
+            (distribution.at(0.0), self.least, -1.0),
+            (distribution.at(1.0), self.most, 1.0),
         ):
             if sense * (end - limit) > 0.0:
                 reached, bound = (format_quantity(value, self.unit) for value in (end, limit))
@@ -142,7 +142,7 @@ class Spread:
                     f"{where}: {raw} reaches {reached}, beyond {bound}",
                     hint="Make it narrower; a normal distribution is cut off at three deviations.",
                 )
-        return found
+        return distribution
 
 
 _RELATIVE_MAX = 0.9
@@ -331,7 +331,7 @@ def _entries_once(file: Path) -> Mapping[str, Entry]:
 def _read_entries(file: Path) -> Mapping[str, Entry]:
     """Entries in a file, by key; see `entries`."""
     content = _FILE.parse_toml(_FILE.read(file), str(file))
-    faults, found = Faults(), {}
+    faults, entry_of_key = Faults(), {}
     for name in sorted(content.keys() - {"reality"}):
         faults.unknown(name, name, ("reality",))
     for name, raw in faults.table(content.get("reality", {}), "reality").items():
@@ -351,10 +351,10 @@ def _read_entries(file: Path) -> Mapping[str, Entry]:
             continue
         value = faults.read(how, specified["value"], where)
         if value is not None:
-            found[name] = Entry(value, **texts)
+            entry_of_key[name] = Entry(value, **texts)
     if faults:
         raise SpecificationError(f"{file} has faults:", problems=faults)
-    return MappingProxyType(found)
+    return MappingProxyType(entry_of_key)
 
 
 _ENTRY_KEYS = ("value", "of", "source")
@@ -392,16 +392,16 @@ def default_uncertainty(
         torque = no_load_torque(motor)
         scales |= {"no-load torque": torque, "no-load friction": torque / speed}
     faults = Faults()
-    found: dict[str, Any] = {}
+    distributions: dict[str, Any] = {}
     for name, entry in entries(DEFAULTS if file is None else Path(file)).items():
         if not entry.of:
-            found[name] = entry.value
+            distributions[name] = entry.value
         elif entry.of in scales:
             text = entry.value.times(scales[entry.of]).written()
-            found[name] = faults.read(spreads()[name], text, f"reality.{name}")
+            distributions[name] = faults.read(spreads()[name], text, f"reality.{name}")
     if faults:
         raise SpecificationError(f"{file or DEFAULTS} has faults:", problems=faults)
-    return UncertaintySection(**found)
+    return UncertaintySection(**distributions)
 
 
 def complete_uncertainty(

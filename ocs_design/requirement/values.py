@@ -296,8 +296,8 @@ class Text:
 def several_names(raw: object, where: str) -> str:
     """One name, or several: a list, or one text separated by commas; duplicates are dropped."""
     texts = [
-        Text(("auto", "none")).read(each, where)
-        for each in (raw if isinstance(raw, list) else [raw])
+        Text(("auto", "none")).read(part, where)
+        for part in (raw if isinstance(raw, list) else [raw])
     ]
     named = dict.fromkeys(name for text in texts for name in names_in(text))
     return NAME_SEPARATOR.join(named)
@@ -423,21 +423,21 @@ def joint_values(raw: object, where: str) -> Mapping[str, JointValue]:
         raise SpecificationError(
             f"{where}: {shortened(raw)} is not a table, as in {{ hip = '10deg' }}"
         )
-    found: dict[str, JointValue] = {}
+    joints: dict[str, JointValue] = {}
     for name, value in table.items():
         place = f"{where}.{name}"
         try:
             length = parse_quantity(value, Dimension.LENGTH, place)
         except QuantityError:
             angle = parse_quantity(value, Dimension.ANGLE, place)
-            found[name] = JointValue(angle, Dimension.ANGLE)
+            joints[name] = JointValue(angle, Dimension.ANGLE)
         else:
-            found[name] = (
+            joints[name] = (
                 JointValue(length, Dimension.LENGTH)
                 if written_unit(value)
                 else JointValue(_BARE_JOINT.read(value, place))
             )
-    return found
+    return joints
 
 
 _BARE_JOINT = angle(Sign.ANY, math.inf, ONE_TURN)

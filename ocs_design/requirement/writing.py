@@ -61,7 +61,7 @@ def specification_to_toml(specification: Specification, comment: str = "") -> st
     """
     lines = [f"# {line}".rstrip() for line in comment.splitlines()]
     for name, section in SECTIONS.items():
-        how = {key: found.value for key, found in keys_of(section).items()}
+        how = {key_name: key.value for key_name, key in keys_of(section).items()}
         specified = list(_fields(getattr(specification, name), how))
         lines += ["", f"[{name}]", *specified] if specified else []
     for maneuver in specification.maneuvers:

@@ -144,7 +144,7 @@ class Anatomy:
 
     def limbs(self, up: FloatArray) -> list[Limb]:
         """Limbs that stretch well below the centre of mass of the robot and of their carriers."""
-        found = []
+        low_limbs = []
         for limb in self._all_limbs(up):
             level = abs(limb.axes[0] @ up) < 0.3
             rolls = limb.hinges == 1 and level and is_wheel(limb.chain.bodies[-1])
@@ -160,8 +160,8 @@ class Anatomy:
                 for carrier in carriers
                 if carrier.mass > 0.0
             ):
-                found.append(limb)
-        return found
+                low_limbs.append(limb)
+        return low_limbs
 
     def share_hips(self, chosen: Sequence[Limb], up: FloatArray) -> bool:
         """Whether every limb shares its hip with another, chosen or not."""

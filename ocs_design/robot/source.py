@@ -90,7 +90,11 @@ def _read_file(path: Path, name: str) -> bytes:
         try:
             kinds = {*_ROBOT_SUFFIXES, path.suffix}
             siblings = sorted(
-                (each for each in path.absolute().parent.iterdir() if each.suffix in kinds),
+                (
+                    sibling
+                    for sibling in path.absolute().parent.iterdir()
+                    if sibling.suffix in kinds
+                ),
                 key=lambda sibling: sibling.suffix == path.suffix,
             )
             name_of_stem = {sibling.stem: sibling.name for sibling in siblings}

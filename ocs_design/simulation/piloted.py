@@ -68,8 +68,8 @@ class PilotedFlight(Batch):
     @property
     def pose(self) -> FloatArray:
         """Joint positions of the model, shape (nq,)."""
-        found: FloatArray = self._qpos[0].copy()
-        return found
+        pose: FloatArray = self._qpos[0].copy()
+        return pose
 
     def fly(self, torque: FloatArray) -> None:
         """One control step with these motor commands [N m], (m,), clipped as the law's are."""

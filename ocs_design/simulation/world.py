@@ -91,11 +91,11 @@ class TrunkChain:
 
     def attitude(self, qpos: FloatArray) -> FloatArray:
         """Frame B in the world, quaternions, from qpos (..., nq); shape (..., 4)."""
-        found = qpos[..., self.position + 3 : self.position + 7]
+        attitude = qpos[..., self.position + 3 : self.position + 7]
         for link in self.links:
             hinge = quaternions.from_axis_angle(link.axis, qpos[..., link.position])
-            found = quaternions.product(found, quaternions.product(link.fixed, hinge))
-        return found if _is_identity(self.end) else quaternions.product(found, self.end)
+            attitude = quaternions.product(attitude, quaternions.product(link.fixed, hinge))
+        return attitude if _is_identity(self.end) else quaternions.product(attitude, self.end)
 
     def rate(self, qpos: FloatArray, qvel: FloatArray) -> FloatArray:
         """Angular rate of the trunk in B [rad/s], shape (..., 3)."""

@@ -55,8 +55,8 @@ def assemble_selected(candidate: Candidate) -> Device:
 
 def modules_at(centers: FloatArray, incidence: float, layout: Layout = PAIR) -> tuple[Module, ...]:
     """Modules with the centres of their wheels in B [m], shape (n, 3), at an incidence [rad]."""
-    each = zip(layout.names, layout.axes(incidence).T, centers, strict=True)
-    return tuple(Module(name, axis, center) for name, axis, center in each)
+    placed = zip(layout.names, layout.axes(incidence).T, centers, strict=True)
+    return tuple(Module(name, axis, center) for name, axis, center in placed)
 
 
 def flywheel_of(wheel: DrivenWheel) -> Flywheel:

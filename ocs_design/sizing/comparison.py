@@ -63,14 +63,14 @@ def layout_answer(layout: str, task: Task, designed: Designed) -> LayoutAnswer:
     """Mass of a layout's device, and its momentum capacity with all wheels and with one less."""
     device, sized, choice = designed.device, designed.sized, designed.choice
     mounting = mounting_of(task.robot, device, task.maneuvers, sized.total)
-    each = device.flywheel.spin_inertia * sized.wheel_speed_max
+    momentum = device.flywheel.spin_inertia * sized.wheel_speed_max
     return LayoutAnswer(
         layout=layout,
         wheels=len(device.modules),
         mass=device.mass,
         motor=device.motor.name,
-        momentum=vector(each * reach(device.axes)),
-        momentum_without_one=vector(each * reach_without_one(device.axes)),
+        momentum=vector(momentum * reach(device.axes)),
+        momentum_without_one=vector(momentum * reach_without_one(device.axes)),
         open=tuple(point.what for point in mounting_open_points(mounting)),
         survives=()
         if choice is None

@@ -108,12 +108,12 @@ def faces(robot: Robot, layout: Layout = PAIR) -> tuple[TrunkSide, ...]:
     up, offsets = _range(robot, UP)
     half_width = max(_plane(robot, LEFT), _plane(robot, -LEFT))
     flank = half_width * LEFT + forward * FORWARD + up * UP
-    found = (
+    sides = (
         _sagittal_face(robot, ON_TOP, UP, FORWARD),
         _sagittal_face(robot, "behind", -FORWARD, UP),
         TrunkSide("beside", LEFT, FORWARD, UP, SPACING * LEFT, flank, shifts, offsets),
     )
-    return tuple(replace(face, layout=layout) for face in found)
+    return tuple(replace(face, layout=layout) for face in sides)
 
 
 def _sagittal_face(robot: Robot, name: str, normal: FloatArray, along: FloatArray) -> TrunkSide:
@@ -254,7 +254,7 @@ class Search:
         ]
         return sorted(
             spots,
-            key=lambda found: self.added_inertia(found[0].place(found[1])),
+            key=lambda spot: self.added_inertia(spot[0].place(spot[1])),
         )
 
     def is_free(self, place: Place) -> bool:

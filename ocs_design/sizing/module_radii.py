@@ -197,15 +197,15 @@ def _crossing_radius(
     """R at which two limits meet for a rim with cuts [m]."""
     cuts, per_volume = limits.cuts, np.pi * limits.density
     full, mass = 2.0 * inertia / per_volume, np.asarray(limits.mass_max) / per_volume
-    found = crossing(_RequiredRim(full, mass, limits))
+    rim = crossing(_RequiredRim(full, mass, limits))
     for _ in range(_CUT_ROUNDS if cuts.any else 0):
         # Where the limits do not meet, there are no cuts.
-        both = cuts.spread(*found), cuts.area(*found)
+        both = cuts.spread(*rim), cuts.area(*rim)
         spread, area = (np.where(np.isfinite(cut), cut, 0.0) for cut in both)
-        last, found = found, crossing(_RequiredRim(full + spread, mass + area, limits))
-        if not np.any(np.abs(found.outer - last.outer) > _EQUAL * found.outer):
+        last, rim = rim, crossing(_RequiredRim(full + spread, mass + area, limits))
+        if not np.any(np.abs(rim.outer - last.outer) > _EQUAL * rim.outer):
             break
-    return found.outer
+    return rim.outer
 
 
 def _has_bore_limit(limits: RimLimits) -> bool:

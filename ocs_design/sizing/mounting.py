@@ -344,10 +344,10 @@ def _height_above(surface: HeightMap, solid: Drum) -> float:
 
 
 def _clearance(candidates: Iterable[Nearest | None]) -> Clearance | None:
-    known = [each for each in candidates if each is not None]
+    known = [candidate for candidate in candidates if candidate is not None]
     if not known:
         return None
-    nearest = min(known, key=lambda each: each.distance)
+    nearest = min(known, key=lambda candidate: candidate.distance)
     return Clearance(nearest.part.name, nearest.distance)
 
 

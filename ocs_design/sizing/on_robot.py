@@ -243,9 +243,9 @@ class OnRobot:
             )
         return Mounted(problem, selection, reserve, unreserved, nominal)
 
-    def without_reserve(self, found: Mounted) -> Candidate:
+    def without_reserve(self, mounted: Mounted) -> Candidate:
         """The lightest device without a reserve."""
-        return lightest_near(found.unreserved, found.nominal, self.criterion) or found.nominal
+        return lightest_near(mounted.unreserved, mounted.nominal, self.criterion) or mounted.nominal
 
     def _own_footing(self, problem: SelectionProblem, best: Candidate) -> SelectionProblem:
         """The problem for the plate, the place and the feet of this device."""

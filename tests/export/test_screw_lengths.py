@@ -41,13 +41,13 @@ def test_every_screw_is_standard_and_holds():
     assert len(SCREWED) >= 9
     for motor in SCREWED:
         for fastening in (*fastenings(motor), LID_SCREWS, trunk_screws(PLATE_THICKNESS)):
-            least = 1e3 * max(fastening.depth * fastening.screw.diameter, fastening.least)
+            least = 1e3 * max(fastening.depth * fastening.screw.diameter, fastening.engagement_min)
             length = round(1e3 * fastening.length)
             engagement = length - 1e3 * fastening.thickness
             assert length in STANDARD
             assert engagement >= least - 1e-9
             required = IN_PLASTIC if fastening.joint.in_print else 1.0
-            deepest = fastening.most / fastening.screw.diameter
+            deepest = fastening.engagement_max / fastening.screw.diameter
             three_pitches = 3.0 * fastening.screw.pitch / fastening.screw.diameter
             assert (
                 fastening.depth

@@ -152,8 +152,8 @@ def read_design(path: AnyPath) -> OcsDesign:
 
 def _objects(entries: object) -> list[dict[str, Any]]:
     """Objects in a list of any document; other entries are refused on conversion."""
-    found = entries if isinstance(entries, list) else []
-    return [entry for entry in found if isinstance(entry, dict)]
+    listed = entries if isinstance(entries, list) else []
+    return [entry for entry in listed if isinstance(entry, dict)]
 
 
 class _Version(msgspec.Struct):

@@ -372,7 +372,7 @@ def _motor_threads(assembly: Assembly) -> Iterator[str]:
     )
     motor, model_text = assembly.device.motor, ""
     model = drawn_threads(motor.name, motor.source)
-    specified = all(screws.fastening.least > 0.0 for screws in tightened_screws)
+    specified = all(screws.fastening.engagement_min > 0.0 for screws in tightened_screws)
     if model is not None and not specified:
         on_wheel = (screws.fastening.joint is BoltedJoint.WHEEL for screws in tightened_screws)
         depths = [model.rotor if rotor else model.stator for rotor in on_wheel]
@@ -411,11 +411,11 @@ def chapters(assembly: Assembly) -> tuple[Chapter, ...]:
     ]
     before += _motor_threads(assembly)
     before.append(f"Tools: {', '.join(tools(assembly))}.")
-    each, once = tuple(module_steps(assembly)), tuple(robot_steps(assembly))
+    per_module, on_robot = tuple(module_steps(assembly)), tuple(robot_steps(assembly))
     all_chapters = (
         Chapter("Before you start", tuple(before)),
-        Chapter("Steps, for each module", each, True),
-        Chapter("Steps, once for the robot", once, True, first=len(each) + 1),
+        Chapter("Steps, for each module", per_module, True),
+        Chapter("Steps, once for the robot", on_robot, True, first=len(per_module) + 1),
         Chapter("Balance", tuple(balance(assembly))),
         Chapter("Spin test, before anything goes on the robot", tuple(spin_test(assembly)), True),
         Chapter("Sweep, on the robot before its first flight", tuple(sweep(assembly)), True),

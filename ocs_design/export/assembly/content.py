@@ -119,7 +119,7 @@ class Slipping:
 
 def slipping(device: Device) -> tuple[Slipping, ...]:
     """Screws of the motor's mount that slip under its torque."""
-    found = []
+    slipping_screws = []
     for ring in device.mount.screwed:
         fastening, radius = ring.fastening, ring.circle.radius
         if fastening.joint is BoltedJoint.WHEEL:
@@ -128,8 +128,8 @@ def slipping(device: Device) -> tuple[Slipping, ...]:
         held = FRICTION * fastening.count * least * radius
         if held < (device.motor.torque_limit or 0.0):
             play = fastening.screw.clearance_hole - fastening.screw.diameter
-            found.append(Slipping(fastening, held, play / radius))
-    return tuple(found)
+            slipping_screws.append(Slipping(fastening, held, play / radius))
+    return tuple(slipping_screws)
 
 
 @dataclass(frozen=True, eq=False)

@@ -137,7 +137,7 @@ def module_pieces(device: Device) -> tuple[Piece, ...]:
     floor = -foot.housing.half_height
     behind, inside, on_wheel = list[Piece](), list[Piece](), list[Piece]()
     for ring in mount.screwed:
-        along = ring.along if ring.by_wheel else floor + ring.along
+        along = ring.along if ring.from_wheel else floor + ring.along
         screws = _ring(ring.fastening, ring.circle.radius, -pi / 2.0, along, ring.towards)
         held = on_wheel if ring.fastening.joint is BoltedJoint.WHEEL else inside
         (behind if ring.towards > 0.0 else held).append(screws)

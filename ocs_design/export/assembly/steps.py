@@ -70,7 +70,7 @@ def tools(assembly: Assembly) -> Iterator[str]:
     device = assembly.device
     if assembly.screws:
         least = min(screws.torque for screws in assembly.screws.values())
-        *others, last = sorted({f"{1e3 * each.screw.key:g}" for each in assembly.screws})
+        *others, last = sorted({f"{1e3 * fastening.screw.key:g}" for fastening in assembly.screws})
         keys = f"{', '.join(others)} and {last}" if others else last
         yield f"torque screwdriver from {significant(least, 1)} N m"
         yield f"hex keys of {keys} mm"
@@ -199,7 +199,7 @@ def _drive_steps(assembly: Assembly) -> Iterator[str]:
     # Joint of the wheel on its drive; a ring around a bell is already bonded.
     joint = None
     if "drum" in assembly.numbers and not device.on_bell:
-        joint = next((each for each in joints_of(device) if each.name == SHAFT_JOINT), None)
+        joint = next((margin for margin in joints_of(device) if margin.name == SHAFT_JOINT), None)
     text = {BoltedJoint.MOTOR_IN_CAGE: " Its wires come out between two posts, tied to one."}
     if joint is not None and joint.capacity is not None:
         text[BoltedJoint.WHEEL] = f" They carry the wheel by {joint.note}."
@@ -360,9 +360,9 @@ def _plate_steps(assembly: Assembly, plate: CarrierPlate, holes: str) -> Iterato
     """Steps to make and mount plate, mast and sleeves; `holes` describes those for the feet."""
     through = f"holes of {1e3 * plate.screw.clearance_hole:g} mm for the trunk's screws, and "
     count, numbered = len(plate.rows), assembly.number("plate")
-    what, own, each = f"the plate{numbered}", "its", "the plate"
+    what, own, each_plate = f"the plate{numbered}", "its", "the plate"
     if count > 1:
-        what, own, each = f"the {count} plates{numbered}", "their", "each plate"
+        what, own, each_plate = f"the {count} plates{numbered}", "their", "each plate"
     sheets = ", which has a sheet for each kind" if len(plate.kinds) > 1 else ""
     cut = (
         f"Make {what} to cad/plate.pdf{sheets} (`export --formats dxf` writes {own} outline for a "
@@ -373,10 +373,10 @@ def _plate_steps(assembly: Assembly, plate: CarrierPlate, holes: str) -> Iterato
         room = (plate.screw.clearance_hole - plate.screw.diameter) / 2.0
         yield (
             f"{cut} {plate.thread} under {own} other {len(plate.trunk)} holes "
-            "(cad/drilling.pdf, printed at 100 %, which says how deep). Drill and tap one of those "
-            f"under {each} by the template, screw it on there, turn it to the other crosses and "
-            f"spot them through it: its holes leave {1e3 * room:.2g} mm around the screws, and "
-            "paper is less exact."
+            "(cad/drilling.pdf, printed at 100 %, which says how deep). Drill and tap one of "
+            f"those under {each_plate} by the template, screw it on there, turn it to the other "
+            f"crosses and spot them through it: its holes leave {1e3 * room:.2g} mm around the "
+            "screws, and paper is less exact."
         )
     else:
         yield (
@@ -510,11 +510,11 @@ def _marks_apart(device: Device, modules: Sequence[Module]) -> str:
         if mate is None or module.position[1] < 0.0:
             continue
         front, back = [], []
-        for each in (module, mate):
-            x, y = each.frame[:2, 1]
+        for opposite in (module, mate):
+            x, y = opposite.frame[:2, 1]
             ahead = radius * np.array([y, -x]) * (1.0 if y > 0.0 else -1.0)
-            front.append(each.position[:2] + ahead)
-            back.append(each.position[:2] - ahead)
+            front.append(opposite.position[:2] + ahead)
+            back.append(opposite.position[:2] - ahead)
         before, behind = (1e3 * np.linalg.norm(one - two) for one, two in (front, back))
         degree = 4e3 * np.radians(radius * abs(module.frame[1, 1]))
         if degree >= LEAST_DEGREE:

@@ -92,7 +92,9 @@ def ellipsoid_chart(design: OcsDesign) -> Chart:
     """
     total = np.array(design.ocs.total_inertia)[:2, :2]
     robot_alone = np.array(design.robot.inertia)[:2, :2]
-    half_range = 1.15 * max(float(np.linalg.eigvalsh(each)[-1]) for each in (total, robot_alone))
+    half_range = 1.15 * max(
+        float(np.linalg.eigvalsh(inertia)[-1]) for inertia in (total, robot_alone)
+    )
     arc = np.linspace(0.0, design.ocs.incidence, 40)
     marks: list[Mark] = [
         FilledArea(*_chart_coordinates(_ellipse(total)), Ink.BLUE, "robot with device"),

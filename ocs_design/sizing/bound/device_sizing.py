@@ -133,14 +133,14 @@ def design_momenta(requirement: Requirement, inertia: FloatArray) -> FloatArray:
     """
     whole = TiltInertia.of(inertia)
     alone = TiltInertia.uncoupled(whole.diagonal)
-    found = [
+    momenta = [
         maneuver.momentum(whole if whole.drifts_off_level(maneuver.tilt_per_drift).any() else alone)
         for maneuver in requirement.maneuvers
         if maneuver.incidence is None
     ]
     if requirement.rate_change is not None:
-        found.append(whole.diagonal * requirement.rate_change)
-    largest: FloatArray = np.max([np.zeros(2), *found], axis=0)
+        momenta.append(whole.diagonal * requirement.rate_change)
+    largest: FloatArray = np.max([np.zeros(2), *momenta], axis=0)
     return largest
 
 
@@ -241,15 +241,15 @@ def size_device(problem: DeviceProblem) -> DeviceSizing:
         UsageError: the requirement is empty, or a limit is not a positive number.
     """
     check_limits(problem.envelope, problem.material, problem.requirement.wheel_speed_max)
-    found = find_fixed_point(problem)
-    if found.shape is None:
-        raise _infeasible(problem, found)
-    rim = solve_rim(problem.rim_problem(found.spin_inertia))
+    fixed_point = find_fixed_point(problem)
+    if fixed_point.shape is None:
+        raise _infeasible(problem, fixed_point)
+    rim = solve_rim(problem.rim_problem(fixed_point.spin_inertia))
     return DeviceSizing(
-        **vars(found),
-        total=braked_total(problem, found.shape, found.incidence),
-        incidence_by_criterion=best_incidences(problem, found.shape, found.incidence),
-        incidence_by_criterion_robot=best_incidences(problem, None, found.incidence),
+        **vars(fixed_point),
+        total=braked_total(problem, fixed_point.shape, fixed_point.incidence),
+        incidence_by_criterion=best_incidences(problem, fixed_point.shape, fixed_point.incidence),
+        incidence_by_criterion_robot=best_incidences(problem, None, fixed_point.incidence),
         rim=rim,
         centers=problem.place(rim.outer_radius, rim.height),
     )
@@ -288,13 +288,13 @@ def _infeasible(problem: DeviceProblem, dead_end: DeviceFixedPoint) -> Infeasibl
         if largest > 0.0:
             most = max(demands, key=lambda demand: demand.spin_inertia)
             asked_by = f"{most.source} requires too much: "
-    found = smallest_changes(
+    changes = smallest_changes(
         {limit: problem.value_of(limit) for limit in limits},
         lambda limit, value: find_fixed_point(problem.with_limit(limit, value)).shape is not None,
         precision=PRECISION / 3.0,
     )
     texts, relaxations = [], {}
-    for limit, edge in found.items():
+    for limit, edge in changes.items():
         # A little looser, as no solver can verify a value at the edge.
         value = limit.loosened(edge, 1.0 + PRECISION / 3.0)
         size_device(problem.with_limit(limit, value))

@@ -178,13 +178,13 @@ def _mast_place(robot: Robot, feet: Feet, layout: Layout, is_formed: bool) -> _M
     def spots(step: float) -> list[tuple[Place, bool, float, float]]:
         heights = np.arange(down - 2.0 * size.wheel_height, up + size.wheel_height, step).tolist()
         spacers = FORMED_SPACERS if is_formed else SPACERS
-        found = [
+        places = [
             (_place_behind(back, plates[0], size, height, face + spacer), far, height, spacer)
             for (far, plates), height, spacer in product(arms.items(), heights, spacers)
         ]
         # A thicker block is heavier than a longer upright.
         return sorted(
-            found, key=lambda candidate: (candidate[3], search.added_inertia(candidate[0]))
+            places, key=lambda candidate: (candidate[3], search.added_inertia(candidate[0]))
         )
 
     each_step = (spots(share * size.reach) for share in _STEPS)

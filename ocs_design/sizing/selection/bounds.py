@@ -166,7 +166,7 @@ class PairBounds:
         # Least mass of screws and cage, less the holes.
         mounts = np.array(
             [
-                mount.by_floor().mass + mount.by_wheel().mass
+                mount.moments_at_floor().mass + mount.moments_at_wheel().mass
                 for motor in problem.motors
                 for mount in [mount_of(motor, None, problem.foot_plate, on_bell=problem.on_bell)]
             ]
@@ -290,7 +290,7 @@ def least_inertia(
         radius = np.minimum(smallest_radius(rim, limits), widest)
         wheel = _SAFETY * np.nan_to_num(lightest_module(rim, limits, PlainDrum(), _DIGITS).mass)
     seat = drives.seat
-    at_floor, at_wheel = seat.by_floor, seat.by_wheel
+    at_floor, at_wheel = seat.at_floor, seat.at_wheel
     stands = at_floor.mass + seat.holes
     behind = stands + at_wheel.mass
     # The holes are at most this far behind the floor.

@@ -18,12 +18,7 @@ from ocs_design.actuation.drive import (
 from ocs_design.actuation.motor import DIRECT, GearRoom, Motor
 from ocs_design.common.arrays import FloatArray, Table, stacked
 from ocs_design.parts.joints import bell_bond_radius
-from ocs_design.parts.module import (
-    Printed,
-    by_floor,
-    by_wheel,
-    gear_moments,
-)
+from ocs_design.parts.module import Printed, gear_moments, moments_at_floor, moments_at_wheel
 from ocs_design.parts.moments import MassMoments, round_body
 from ocs_design.parts.motor_mount import mount_of
 from ocs_design.parts.printed import CLEARANCE, PANEL, WALL, half_height
@@ -54,8 +49,8 @@ def _seat(motor: Motor, room: GearRoom | None, foot_plate: float, *, on_bell: bo
     """Seat of one motor, which does not depend on the problem."""
     mount = mount_of(motor, room, foot_plate, on_bell=on_bell)
     return Seat(
-        by_floor=by_floor(motor, DIRECT, mount),
-        by_wheel=by_wheel(motor, mount),
+        at_floor=moments_at_floor(motor, DIRECT, mount),
+        at_wheel=moments_at_wheel(motor, mount),
         behind=mount.behind(motor),
         posts=replace(mount.posts, foot_plate=foot_plate),
         reach=mount.holes.reach,
@@ -157,8 +152,8 @@ class Candidates(Table):
             round_body(mass, wheel, transverse + web + drives.hub.across * drives.web_density_max)
             + self.shell.moments(outer, housed_height)
             + seat.posts.moments(height)
-            + seat.by_wheel
-            + seat.by_floor.shifted(-half_height(housed_height), np.zeros_like(housed_height))
+            + seat.at_wheel
+            + seat.at_floor.shifted(-half_height(housed_height), np.zeros_like(housed_height))
         )
         return moments, drives.size(outer + guard, height)
 
@@ -340,6 +335,6 @@ def _seats(problem: SelectionProblem, pairs: NDArray[np.intp]) -> Seat[FloatArra
     geared = stacked(stages).take(pairs[:, 1])
     return replace(
         seats,
-        by_floor=seats.by_floor.shifted(-depth, offset) + geared,
+        at_floor=seats.at_floor.shifted(-depth, offset) + geared,
         behind=replace(seats.behind, depth=seats.behind.depth + depth),
     )

@@ -21,8 +21,8 @@ class Seat(Table, Generic[Real]):
     """Mounting of a motor behind its housing's floor, independent of the wheel.
 
     Attributes:
-        by_floor: moments about the middle of the outside of the housing's floor, see
-            `module.by_floor`. by_wheel: about the wheel's middle, see `module.by_wheel`.
+        at_floor: moments about the middle of the outside of the housing's floor, see
+            `module.moments_at_floor`. at_wheel: about the wheel's middle.
         behind: extent behind the floor.
         posts: of its cage.
         reach, holes: radius of the mount's holes [m], and the mass that they remove [kg].
@@ -32,8 +32,8 @@ class Seat(Table, Generic[Real]):
         head_reach: radius that the heads of the screws in the housing reach [m].
     """
 
-    by_floor: MassMoments[Real]
-    by_wheel: MassMoments[Real]
+    at_floor: MassMoments[Real]
+    at_wheel: MassMoments[Real]
     behind: Behind[Real]
     posts: Posts[Real]
     reach: Real
@@ -134,7 +134,7 @@ class Drives(Table):
     @property
     def mass(self) -> FloatArray:
         """Least mass of motor, gear and hub, less the mount's holes, without posts [kg]."""
-        return self.seat.by_floor.mass + self.seat.by_wheel.mass + self.hub_mass
+        return self.seat.at_floor.mass + self.seat.at_wheel.mass + self.hub_mass
 
     def size(self, outer_radius: FloatArray, height: FloatArray) -> Size[FloatArray]:
         """Size of modules with rims of these outer radii, guard rings added, and heights [m]."""

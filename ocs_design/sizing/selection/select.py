@@ -242,8 +242,8 @@ def device_at(problem: SelectionProblem, device: Candidate, incidence: float) ->
 
     None: there is none near it.
     """
-    (found,) = devices_at(problem, [device], incidence)
-    return found
+    (resized,) = devices_at(problem, [device], incidence)
+    return resized
 
 
 def devices_at(
