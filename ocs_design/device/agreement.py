@@ -53,7 +53,7 @@ class _Figure(NamedTuple):
     @property
     def agrees(self) -> bool:
         """Whether both are equal except for rounding."""
-        if isinstance(self.computed, str):
+        if isinstance(self.computed, str) or self.recorded is None:
             return self.recorded == self.computed
         recorded, computed = (
             np.ravel(np.asarray(value, float)) for value in (self.recorded, self.computed)
@@ -71,6 +71,8 @@ class _Figure(NamedTuple):
 
 def _text(value: object, unit: str) -> str:
     """A figure as text; the rows of a matrix one after the other."""
+    if value is None:
+        return "null"
     if isinstance(value, str):
         return repr(value)
     figures = np.ravel(np.asarray(value, float)).tolist()
@@ -159,9 +161,18 @@ def _drive_figures(device: Device) -> Iterator[_Figure]:
         return
     speed, line = voltage / (k_t * motor.gear_ratio), "voltage, winding and gear give"
     yield _Figure("ocs.motor.no_load_speed", motor.no_load_speed, speed, "rad/s", line)
-    if resistance is not None and motor.stall_torque is not None:
-        torque = motor.gear_ratio * motor.gear_efficiency * voltage * k_t / resistance
-        yield _Figure("ocs.motor.stall_torque", motor.stall_torque, torque, "N m", line)
+    stall, gain = motor.stall_torque, motor.gear_ratio * motor.gear_efficiency * voltage * k_t
+    if resistance is not None:
+        yield _Figure("ocs.motor.stall_torque", stall, gain / resistance, "N m", line)
+    elif stall is not None:
+        drop = "voltage, stall torque and gear give"
+        yield _Figure("ocs.motor.resistance", resistance, gain / stall, "ohm", drop)
+    # The rotor's share is s N J_r; of the armature, N (N - s) J_r + J_gear, the file lacks J_gear.
+    ratio, sense = motor.gear_ratio, -1.0 if motor.rotor_inertia < 0.0 else 1.0
+    least = (sense * ratio - 1.0) * motor.rotor_inertia
+    own = least if motor.gear == DIRECT.name else max(motor.armature, least)
+    at_least = "rotor and gear give at least"
+    yield _Figure("ocs.motor.armature", motor.armature, own, "kg m^2", at_least)
 
 
 def _limit_figures(design: OcsDesign, device: Device) -> Iterator[_Figure]:
@@ -175,14 +186,13 @@ def _limit_figures(design: OcsDesign, device: Device) -> Iterator[_Figure]:
         "ocs.motor.torque_limit": ("motor torque", motor.torque_limit, motor.friction, "N m"),
         "ocs.motor.speed_max": ("wheel speed", motor.speed_max, 0.0, "rad/s"),
     }
-    if supply is not None:
-        limits |= {
-            f"supply.{key}": (f"bus {name}", getattr(supply, key), 0.0, unit)
-            for key, name, unit in (("current_max", "current", "A"), ("power_max", "power", "W"))
-        }
+    limits |= {
+        f"supply.{key}": (f"bus {name}", getattr(supply, key, None), 0.0, unit)
+        for key, name, unit in (("current_max", "current", "A"), ("power_max", "power", "W"))
+    }
     for key, (name, limit, friction, unit) in limits.items():
         capacity = capacities.get(name)
-        if capacity is not None and limit is not None and motor.bus_voltage is not None:
+        if capacity is not None and motor.bus_voltage is not None:
             basis = f"the capacity of {name} in margins gives"
             yield _Figure(key, limit, capacity - friction, unit, basis)
 

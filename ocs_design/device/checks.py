@@ -5,7 +5,7 @@ here.
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import fields, is_dataclass
+from dataclasses import fields, is_dataclass, replace
 from math import hypot
 from typing import TYPE_CHECKING
 
@@ -15,6 +15,7 @@ from ocs_design.common.errors import OcsError, SpecificationError
 from ocs_design.common.ranges import LARGEST_LENGTH, SMALLEST_LENGTH, ranges_of
 from ocs_design.common.units import format_quantity
 from ocs_design.device.device import Device
+from ocs_design.device.records.design import OcsDesign
 from ocs_design.device.records.flights import ControlRecord
 from ocs_design.parts.carrier_plate import CarrierPlate, Mast
 from ocs_design.parts.wheel import Flywheel
@@ -62,6 +63,24 @@ def check_control(control: ControlRecord) -> None:
         given = format_quantity(control.period, "ms", 12)
         faults.append(f"control.period is {given}, not a whole number of milliseconds")
     _refuse("a wheel law that cannot be flown", faults)
+
+
+def check_requirement(design: OcsDesign) -> None:
+    """Refuse figures of robot, requirement and reserve that no flight can have.
+
+    Raises:
+        OcsError: lists every fault.
+    """
+    kept = None if design.selection is None else design.selection.kept
+    # What a kind of maneuver may have is checked as it is restored; demands are not flown.
+    faults = [
+        *_figures(replace(design.requirement, maneuvers=(), demands=()), "requirement"),
+        *_figures(design.robot, "robot"),
+        *(() if kept is None else _figures(kept, "selection.kept")),
+    ]
+    if fault := ranges_of(OcsDesign)["seed"].fault(design.seed):
+        faults.append(f"seed {fault}")
+    _refuse("flights that cannot be", faults)
 
 
 def _refuse(subject: str, faults: Sequence[str]) -> None:

@@ -13,7 +13,7 @@ from ocs_design.common.errors import OcsError, RobotError
 from ocs_design.common.files import AnyPath
 from ocs_design.common.frames import Placement
 from ocs_design.device.agreement import check_agreement
-from ocs_design.device.checks import check_control, check_device
+from ocs_design.device.checks import check_control, check_device, check_requirement
 from ocs_design.device.device import Device
 from ocs_design.device.records.design import OcsDesign, design_file, read_design
 from ocs_design.device.records.requirement import RobotRecord
@@ -30,13 +30,14 @@ def read_design_and_device(path: AnyPath) -> tuple[OcsDesign, Device]:
     """A design, and its device.
 
     Raises:
-        OcsError: it cannot be read, no such device or wheel law can exist, or its figures
-            contradict each other.
+        OcsError: it cannot be read, no such device, requirement or wheel law can exist, or its
+            figures contradict each other.
     """
     design = read_design(path)
     try:
         device = Device.of_record(design.ocs, design.supply)
         check_device(device)
+        check_requirement(design)
         if design.control is not None:
             check_control(design.control)
         check_agreement(design, device)
@@ -164,7 +165,8 @@ def read_recorded_robot(
         # The hash covers the robot's own file only.
         raise RobotError(
             f"{robot.source}: a file that it includes has changed since the device was sized for "
-            f"it; {masses}",
+            f"it, or the posture in {location.design}; {masses}, and its inertia differs by "
+            f"{100.0 * difference:.2g} % of the largest",
             hint="size it again, or restore the included file",
         )
     if strict and warnings:

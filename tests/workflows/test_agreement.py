@@ -89,6 +89,12 @@ def edited(folder, key, value, kind="disc"):
         ("ocs.incidence", 0.2, r"axis of module left is .* ocs\.incidence gives"),
         ("robot.mass", 25.0, r"ocs\.total_mass is"),
         ("supply.voltage", 48.0, r"supply\.voltage is 48 V, but selection\.bus_voltage is"),
+        ("ocs.motor.stall_torque", None, r"ocs\.motor\.stall_torque is null, but voltage"),
+        ("ocs.motor.resistance", None, r"ocs\.motor\.resistance is null, but voltage"),
+        ("ocs.motor.armature", -1.0, r"ocs\.motor\.armature is -1 kg m\^2, but rotor and gear"),
+        ("robot.standing_height", -1.0, r"robot\.standing_height is -1, not between"),
+        ("requirement.detection", 1e300, r"requirement\.detection is 1e\+300, not between"),
+        ("seed", -1, r"seed is -1, not between"),
     ],
 )
 def test_a_contradiction_is_refused_with_its_key(key, value, message, tmp_path):
@@ -96,6 +102,42 @@ def test_a_contradiction_is_refused_with_its_key(key, value, message, tmp_path):
         read_design_and_device(edited(tmp_path, key, value))
     assert refused.value.exit_code == 3
     assert "size" in refused.value.hint
+
+
+@pytest.mark.parametrize(
+    ("key", "name"),
+    [
+        ("ocs.motor.torque_limit", "motor torque"),
+        ("ocs.motor.speed_max", "wheel speed"),
+        ("supply", "bus current"),
+    ],
+)
+def test_a_limit_that_margins_have_may_not_be_removed(key, name, tmp_path):
+    """Without it the flights were judged as passed with any torque, speed or power."""
+    document = json.loads(written("disc"))
+    motor, supply = document["ocs"]["motor"], document["supply"]
+    friction = motor["torque_constant"] * motor["no_load_current"]
+    capacities = {
+        "motor torque": motor["torque_limit"] + friction,
+        "wheel speed": motor["speed_max"],
+        "bus power": supply["power_max"],
+        "bus current": supply["current_max"],
+    }
+    for margin, capacity in capacities.items():
+        row = {"name": margin, "demand": 0.0, "capacity": capacity, "unit": "SI", "scenario": ""}
+        document["margins"].append(row)
+    (tmp_path / "design.json").write_text(json.dumps(document))
+    read_design_and_device(tmp_path)
+    (tmp_path / "design.json").write_text(json.dumps(with_value(document, key, None)))
+    with pytest.raises(OcsError, match=rf"{key}\S* is null, but the capacity of {name} in margins"):
+        read_design_and_device(tmp_path)
+
+
+def test_a_reserve_of_zero_is_refused(tmp_path):
+    """It ended in a division by zero."""
+    folder = edited(tmp_path, "selection.kept.maneuvers.0.demand", 0.0, "shrunk on")
+    with pytest.raises(OcsError, match=r"selection\.kept\.maneuvers\.demand is 0, not between"):
+        read_design_and_device(folder)
 
 
 def test_a_wheel_without_a_motor_is_checked_too(tmp_path):

@@ -7,14 +7,16 @@ and a step in `read_design` that converts older versions.
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from math import inf
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
 import msgspec
 
 from ocs_design.actuation.supply import Supply
 from ocs_design.common.errors import OcsError
 from ocs_design.common.files import AnyPath, read_plain_file
+from ocs_design.common.ranges import Range
 from ocs_design.common.units import format_quantity
 from ocs_design.device.records.device import OcsRecord
 from ocs_design.device.records.flights import (
@@ -62,7 +64,7 @@ class OcsDesign:
 
     schema_version: int
     tool: Tool
-    seed: int
+    seed: Annotated[int, Range(0, inf)]
     robot: RobotRecord
     requirement: RequirementRecord
     ocs: OcsRecord

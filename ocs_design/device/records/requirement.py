@@ -3,13 +3,14 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field, fields
 from math import isfinite, nan
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 
 from ocs_design.common.arrays import FloatArray, Matrix, Vector, matrix, vector
 from ocs_design.common.errors import OcsError
 from ocs_design.common.files import AnyPath
+from ocs_design.common.ranges import Length, NotNegative, Positive, Range
 from ocs_design.common.records import recorded
 from ocs_design.requirement.bound import SpinDemand
 from ocs_design.requirement.kinds import MANEUVER_KINDS, kind_of
@@ -51,8 +52,8 @@ class RobotRecord:
     posture_name: str
     posture: Mapping[str, float]
     legs: tuple[str, ...]
-    standing_height: float | None
-    mass: float
+    standing_height: Length | None
+    mass: Positive
     com: Vector
     inertia: Matrix
     warnings: tuple[str, ...]
@@ -102,7 +103,7 @@ class ManeuverRecord:
 
         Raises:
             OcsError: its kind is unknown, or does not have these fields, or one has an impossible
-                value.
+                value or contradicts the others.
         """
         kind, specified = MANEUVER_KINDS.get(self.kind), set(self.parameters)
         common = {field.name for field in fields(Maneuver)}
@@ -128,17 +129,20 @@ class ManeuverRecord:
                     f"maneuver {self.name!r}: {name} of a {self.kind} cannot be {value!r}"
                 )
         figures: dict[str, Any] = {**self.parameters}
-        return kind.maneuver(
+        maneuver = kind.maneuver(
             name=self.name, gravity=self.gravity, incidence=self.incidence, **figures
         )
+        if (contradiction := next(iter(maneuver.contradictions()), None)) is not None:
+            raise OcsError(contradiction, hint="run `ocs-design size` again")
+        return maneuver
 
 
 @dataclass(frozen=True, kw_only=True)
 class AxisInertia:
     """Inertia that the wheels must provide about each axis, in the one-wheel model [kg m^2]."""
 
-    pitch: float
-    roll: float
+    pitch: NotNegative
+    roll: NotNegative
 
     @classmethod
     def of(cls, momenta: Sequence[FloatArray], wheel_speed_max: float) -> "AxisInertia":
@@ -157,11 +161,11 @@ class RequirementRecord:
     """
 
     maneuvers: tuple[ManeuverRecord, ...]
-    rate_change: float | None
-    wheel_speed_max: float
+    rate_change: NotNegative | None
+    wheel_speed_max: Positive
     required_inertia: AxisInertia
-    spin_inertia_by_hand: float | None
+    spin_inertia_by_hand: NotNegative | None
     demands: tuple[SpinDemand, ...]
     assumptions: tuple[str, ...]
-    reliability: float | None = None
-    detection: float | None = None
+    reliability: Annotated[float, Range(0.5, 1.0)] | None = None
+    detection: NotNegative | None = None

@@ -3,6 +3,8 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from ocs_design.common.ranges import NotNegative, Positive, Signed
+
 
 @dataclass(frozen=True)
 class TaskDemand:
@@ -121,12 +123,12 @@ class ManeuverReserveRecord:
     """
 
     maneuver: str
-    demand: float
-    needed: float
-    roll_rate: float
-    pitch_rate: float
-    lost: float
-    undone: float = 0.0
+    demand: Positive
+    needed: NotNegative
+    roll_rate: NotNegative
+    pitch_rate: NotNegative
+    lost: NotNegative
+    undone: NotNegative = 0.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -140,8 +142,8 @@ class UncertaintyCost:
     """
 
     key: str
-    share: float
-    mass: float
+    share: Signed
+    mass: Signed
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -157,10 +159,10 @@ class ReserveRecord:
         curve: reliability and mass of the device of the same parts [kg], where there is one.
     """
 
-    reliability: float
-    predicted: float
-    scale: float
-    nominal: float
+    reliability: NotNegative
+    predicted: NotNegative
+    scale: NotNegative
+    nominal: NotNegative
     maneuvers: tuple[ManeuverReserveRecord, ...]
     costs: tuple[UncertaintyCost, ...]
     curve: tuple[tuple[float, float], ...]
