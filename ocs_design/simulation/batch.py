@@ -37,8 +37,8 @@ class Recording:
         wheel_speed: relative to the trunk [rad/s], (k, n, wheels).
         wheel_torque: of the motors on the wheels, held until the next instant [N m],
             (k, n, wheels).
-        com: centre of mass in the world [m], (k, n, 3).
-        momentum: angular, about the centre of mass, in the world [N m s], (k, n, 3).
+        com: centre of mass in the world, without an anchor [m], (k, n, 3).
+        momentum: angular, about the centre of mass or the pivot, in the world [N m s], (k, n, 3).
         impulse: of the external torque since the start, and of gravity's about a pivot, in the
             world [N m s], (k, n, 3).
         height: of the trunk's body over the floor [m], (k, n).
@@ -213,10 +213,12 @@ class Batch:
         self._pushed_control = np.concatenate([self._control, unpushed], axis=2)
         self._push_address = first.nu + 6 * self._addresses.trunk + 3
         self._body_mass = np.stack([world.model.body_mass for world in worlds])
-        # Weight times lever as built, in B; worlds on a pivot form a batch of their own.
-        self._weight_lever = (
-            np.stack([_weight_lever(world) for world in worlds]) if worlds[0].body.stands else None
-        )
+        # Weights and levers as built, in B; worlds on a pivot form a batch of their own.
+        self._weight: FloatArray | None = None
+        self._lever: FloatArray | None = None
+        if worlds[0].body.stands:
+            weights, levers = zip(*map(_weight_and_lever, worlds), strict=True)
+            self._weight, self._lever = np.array(weights), np.stack(levers)
 
     def run(self, threads: int, stop: Event, progress: Callable[[float], None]) -> Recording:
         """Run all worlds to their ends, once.
@@ -336,8 +338,8 @@ class Batch:
             state=self._states[:n],
             sensordata=self._sensors[:n],
         )
-        if self._weight_lever is not None:
-            impulse = self._gravity_impulse(self._weight_lever[:n])
+        if self._weight is not None and self._lever is not None:
+            impulse = self._gravity_impulse(self._weight[:n, None] * self._lever[:n])
         if k + 1 < len(record.time):
             record.impulse[k + 1, :n] = record.impulse[k, :n] + (
                 0.0 if impulse is None else impulse
@@ -367,6 +369,10 @@ class Batch:
         addresses, record = self._addresses, self._record
         sensors = self._sensors[:running, 0]
         record.com[k, :running] = sensors[:, addresses.com : addresses.com + 3]
+        if self._lever is not None:
+            # With its anchor, the centre of mass of the whole is at the pivot.
+            to_world = quaternions.matrix(record.attitude[k, :running])
+            record.com[k, :running] += np.einsum("nij,nj->ni", to_world, self._lever[:running])
         record.momentum[k, :running] = sensors[:, addresses.momentum : addresses.momentum + 3]
         record.height[k, :running] = sensors[:, addresses.height]
         touches = self._sensors[:running, :, addresses.contact] > 0
@@ -377,12 +383,12 @@ class Batch:
             record.contact[k - 1, :running] |= touches[:, 0]
 
 
-def _weight_lever(world: World) -> FloatArray:
-    """Weight times lever about the pivot of the robot as built, in B [N m], shape (3,)."""
+def _weight_and_lever(world: World) -> tuple[float, FloatArray]:
+    """Weight of the robot as built [N], and its centre of mass from the pivot, in B [m], (3,)."""
     model, data = world.model, mujoco.MjData(world.model)
     data.qpos[:] = world.qpos
     mujoco.mj_kinematics(model, data)
     built = total_mass_properties(model, data)
     lever = built.com - data.xpos[model.body(ANCHOR).id]
     to_world = quaternions.matrix(world.chain.attitude(world.qpos))
-    return np.asarray(-built.mass * model.opt.gravity[2] * lever @ to_world)
+    return -built.mass * float(model.opt.gravity[2]), lever @ to_world

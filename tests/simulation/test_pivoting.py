@@ -104,6 +104,11 @@ def test_energy_about_the_pivot_is_conserved_without_drives(maneuver):
     scale = np.linalg.norm(on_device.gravity_moment)
     assert np.ptp(on_device.gravity_moment @ up) > 1.5 * scale
     np.testing.assert_allclose(energy, energy[0], rtol=0, atol=1e-5 * scale)
+    # The recorded centre of mass is that of robot and device, without the heavy anchor.
+    com, mass = recording.com[:, 0], device.mass + ROBOT.mass
+    height = on_device.gravity_moment @ up / (mass * maneuver.gravity)
+    assert np.ptp(height) > 0.4
+    np.testing.assert_allclose(com[:, 2] - com[0, 2], height - height[0], rtol=0, atol=1e-6)
 
 
 def test_the_model_has_the_inertia_of_the_plan():
