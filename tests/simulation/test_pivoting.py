@@ -108,7 +108,8 @@ def test_energy_about_the_pivot_is_conserved_without_drives(maneuver):
     com, mass = recording.com[:, 0], device.mass + ROBOT.mass
     height = on_device.gravity_moment @ up / (mass * maneuver.gravity)
     assert np.ptp(height) > 0.4
-    np.testing.assert_allclose(com[:, 2] - com[0, 2], height - height[0], rtol=0, atol=1e-6)
+    # In 2 s robot and anchor fall by a ten millionth of a free fall, 2e-6 m.
+    np.testing.assert_allclose(com[:, 2] - com[0, 2], height - height[0], rtol=0, atol=3e-6)
 
 
 def test_the_model_has_the_inertia_of_the_plan():
