@@ -207,6 +207,17 @@ def sampled_world(
     constant = 1.0 + sample.of("torque_constant_error")
     voltage = 1.0 + sample.only("bus_voltage_error")
     resistance = 1.0 + sample.of("resistance_error")
+    # V = R i + k_t w (docs/theory.md, The motor).
+    real = MotorLimits(
+        no_load_speed=limits.no_load_speed * voltage / constant,
+        line_slope=limits.line_slope * resistance / constant**2,
+        torque_limit=limits.torque_limit * constant,
+        speed_max=np.array([np.inf]),
+        copper=limits.copper * resistance / constant**2,
+        efficiency=np.array([limits.efficiency]),
+        power_max=np.array([limits.power_max]),
+        voltage=None if limits.voltage is None else limits.voltage * voltage,
+    )
     imperfections = Imperfections(
         attitude_bias=sample.of("attitude_bias"),
         gyro_bias=sample.of("gyro_bias"),
@@ -214,16 +225,7 @@ def sampled_world(
         gyro_noise=sample.only("gyro_noise"),
         stream=sample.noise(flight),
         torque_gain=constant,
-        # V = R i + k_t w (docs/theory.md, The motor).
-        limits=MotorLimits(
-            no_load_speed=limits.no_load_speed * voltage / constant,
-            line_slope=limits.line_slope * resistance / constant**2,
-            torque_limit=limits.torque_limit * constant,
-            speed_max=np.array([np.inf]),
-            copper=limits.copper * resistance / constant**2,
-            efficiency=np.array([limits.efficiency]),
-            power_max=np.array([limits.power_max]),
-        ),
+        limits=replace(real, voltage=None),
         coulomb=sample.of("coulomb_friction"),
         viscous=sample.of("viscous_friction"),
         air=air,
@@ -241,7 +243,7 @@ def sampled_world(
         world,
         model=model,
         law=law,
-        limits=limits if world.limits else None,
+        limits=real if world.limits else None,
         imperfections=imperfections,
         pushes=pushes,
         stopped=sample.stopped(world),

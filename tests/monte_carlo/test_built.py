@@ -9,9 +9,11 @@ from campaigns import NO_UNCERTAINTY, short_campaign
 from scipy.spatial.transform import Rotation
 from wheels import driven_device, layout_device, paper_device
 
+from ocs_design.actuation.supply import Supply
 from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.requirement.uncertainty import Constant, UncertaintySection
 from ocs_design.simulation.imperfections import ImperfectDrives
+from ocs_design.simulation.metrics import series_of
 from ocs_design.simulation.motor_limits import USED_SHARE, MotorLimits
 from ocs_design.simulation.scene import Wheels, compile_scene, robot_scene
 from ocs_design.simulation.simulate import simulate
@@ -168,6 +170,27 @@ def test_friction_is_subtracted_once(solo12):
     real, nominal = torques(0.9 * with_friction.no_load_speed * np.array([[1.0, -1.0]]))
     share = 1.0 - USED_SHARE * limits.line_slope / (limits.line_slope + 5e-3 * response.item())
     np.testing.assert_allclose(real, nominal - share * friction * np.sign(nominal), rtol=1e-9)
+
+
+def test_power_and_available_torque_of_a_sample_are_those_of_its_own_motors(solo12):
+    """`R i^2 + tau W` at its own torque constant and resistance, over its own voltage."""
+    constant, resistance, voltage = 0.036, 0.61, 24.0
+    motor = replace(driven_device().motor, torque_constant=constant, resistance=resistance)
+    device = replace(driven_device(), motor=motor, supply=Supply(voltage))
+    errors = {"torque_constant": -0.05, "resistance": 0.2, "bus_voltage": 0.1}
+    _, robot = designed_and_sampled(
+        solo12, device, **{f"{name}_error": error for name, error in errors.items()}
+    )
+    series = series_of(simulate([robot]), 0, robot)
+    k_t, R = 0.95 * constant, 1.2 * resistance
+    ends = np.stack([series.wheel_speed[:-1], series.wheel_speed[1:]])
+    torque = series.wheel_torque[:-1]
+    power = (R * (torque / k_t) ** 2 + torque * ends).sum(axis=-1)
+    largest = np.take_along_axis(power, np.abs(power).argmax(axis=0)[None], axis=0)[0]
+    np.testing.assert_allclose(series.bus_power[:-1], largest, rtol=1e-9, atol=1e-9)
+    np.testing.assert_allclose(series.bus_current, series.bus_power / (1.1 * voltage))
+    assert series.bus_power.max() > 10.0
+    np.testing.assert_allclose(series.torque_highest[0], 0.95 * motor.torque_limit)
 
 
 @pytest.mark.parametrize("period", [1e-3, 5e-3, 2e-2])
