@@ -142,17 +142,23 @@ class Chain:
         return columns.T @ self._coupling[0]
 
     def stretched(
-        self, local: FloatArray, direction: FloatArray, movable: Sequence[int] | None = None
+        self,
+        local: FloatArray,
+        direction: FloatArray,
+        movable: Sequence[int] | None = None,
+        *,
+        start: FloatArray | None = None,
     ) -> FloatArray:
         """Driven joints' values that bring a point of the last body farthest along `direction`.
 
         Cyclic coordinate ascent within the limits: along a single hinge the objective is a
         sinusoid, whose maximum is known in closed form (Wang and Chen, IEEE T-RA 7(4), 1991).
         Prismatic joints are not moved. A limb folded onto itself at zero is at a saddle point; if
-        the first ascent leaves it short, it restarts with every joint turned.
+        the first ascent leaves it short, it restarts with every joint turned. Joints that are not
+        `movable` stay as in `start`, by default at zero or at the limit nearest to it.
         """
         columns = range(len(self.driven)) if movable is None else movable
-        start = self.neutral()
+        start = self.neutral() if start is None else np.clip(start, self.lower, self.upper)
         best, extension = self._coordinate_ascent(local, direction, columns, start)
         span = self.span(local)
         for turn in _RESTART_OFFSETS if extension < _STRETCHED_SHARE * span else ():

@@ -43,7 +43,7 @@ class LegGeometry:
         is recognised by having no roll joint.
         """
         driven, plane = self.chain.driven, self.plane
-        axes = self.chain.pose(np.zeros(len(driven))).axes
+        axes = self.chain.pose(plane.level).axes
         swings = 0 not in plane.pitch and abs(axes[driven[0]] @ self.up) > SIDEWAYS
         rolls = any(abs(axes[row] @ plane.forward) > SIDEWAYS for row in driven)
         return bool(abs(plane.axis[0]) > SIDEWAYS and (rolls or not swings))
@@ -82,29 +82,63 @@ def sole_depths(
     return [leg.foot_radius - float(up @ placements[leg.body].point(leg.foot)) for leg in legs]
 
 
+_CURE = "fix a link with x forward and z up to the trunk and name it with --trunk"
+
+
 def convention_warnings(tree: Tree, trunk: str, legs: Sequence[Leg]) -> list[str]:
     """Warnings that B may not have x forward and z up, judged by how the legs hang and bend."""
     if not legs:
         return []
-    cure = "fix a link with x forward and z up to the trunk and name it with --trunk"
     geometries = leg_geometries(tree, trunk, legs)
     up = geometries[0].up
     if up[2] < 1.0:
         return [
             f"the legs do not hang along -z of the trunk frame '{trunk}' but along "
-            f"{axis_name(-up)}, so roll and pitch are about the wrong axes: {cure}"
+            f"{axis_name(-up)}, so roll and pitch are about the wrong axes: {_CURE}"
         ]
     if all(geometry.steps_sideways for geometry in geometries):
         return [
             f"the knees turn about the x axis of the trunk frame '{trunk}', so x seems to point "
-            f"sideways, and roll and pitch are swapped: {cure}"
+            f"sideways, and roll and pitch are swapped: {_CURE}"
         ]
     if named_front(legs, [geometry.plane.hip for geometry in geometries])[0] < 0.0:
         return [
             f"the legs named as front legs are behind the others: x of the trunk frame "
-            f"'{trunk}' seems to point backwards, so flips are reversed: {cure}"
+            f"'{trunk}' seems to point backwards, so flips are reversed: {_CURE}"
         ]
     return []
+
+
+_ALONG, _ACROSS = 0.7, 0.2
+"""Shares of a leg's extent along an axis above which it points along it, or hangs."""
+
+
+def hanging_warnings(tree: Tree, trunk: str, legs: Sequence[Leg]) -> list[str]:
+    """Warning of an axis of B along which all legs point at rest, and that was not taken as down.
+
+    It may be down, or the legs may be folded up or stretched out at zero. They are if they hang as
+    assumed in any posture of the file.
+    """
+    if not legs:
+        return []
+    up, drops = up_axis(tree, trunk, legs), []
+    for posture in (neutral_posture(tree), *tree.named_postures.values()):
+        placements = tree.placements_from(trunk, posture)
+        hips = [placements[tree.path(leg.base, leg.body)[0]].position for leg in legs]
+        tips = [placements[leg.body].point(leg.foot) for leg in legs]
+        drops.append(np.array(hips) - np.array(tips))
+    lengths = np.linalg.norm(drops, axis=2) + 1e-300
+    if ((drops @ up) / lengths > _ACROSS).all(axis=1).any():
+        return []
+    directions = drops[0] / lengths[0][:, None]
+    axis = int(np.argmax(np.abs(directions.sum(axis=0))))
+    other = np.eye(3)[axis] * np.sign(directions[0, axis])
+    if not (directions @ other > _ALONG).all():
+        return []
+    return [
+        f"at zero the legs point along {axis_name(-other)} of the trunk frame '{trunk}', not along "
+        f"{axis_name(-up)}: if that is down, {_CURE}"
+    ]
 
 
 def axis_name(direction: FloatArray) -> str:

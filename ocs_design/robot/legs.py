@@ -8,7 +8,7 @@ import numpy as np
 
 from ocs_design.common.arrays import FloatArray, frozen
 from ocs_design.common.frames import Placement
-from ocs_design.robot.chain import Chain, chain_of
+from ocs_design.robot.chain import Chain, chain_of, nearest_turn
 from ocs_design.robot.meshes import extent, extent_of, solid_shapes
 from ocs_design.robot.robot import Leg
 from ocs_design.robot.tree import Body, JointKind, ShapeKind, Tree
@@ -121,7 +121,7 @@ PARALLEL = 0.97
 
 @dataclass(frozen=True, eq=False)
 class LegPlane:
-    """Geometry of a leg with all its joints at zero, in the chain's reference frame.
+    """Geometry of a leg with its joints at zero and its hip level, in the chain's reference frame.
 
     Attributes:
         pitch: columns of the driven joints whose axes are parallel and bend the leg, hip first.
@@ -131,6 +131,7 @@ class LegPlane:
         columns: columns of the driven joints that place the foot: all but a wheel's.
         flat: whether the leg has ankles that can keep its sole level.
         length: of the stretched leg within its limits, hip to foot [m]; 0 if it has only slides.
+        level: values of the driven joints [rad or m]: zero, but for a roll that makes `axis` level.
     """
 
     pitch: tuple[int, ...]
@@ -140,6 +141,7 @@ class LegPlane:
     columns: tuple[int, ...]
     flat: bool
     length: float
+    level: FloatArray
 
 
 def leg_plane(chain: Chain, foot: FloatArray, up: FloatArray) -> LegPlane:
@@ -169,11 +171,14 @@ def leg_plane(chain: Chain, foot: FloatArray, up: FloatArray) -> LegPlane:
     pitch = max(sets)[2] if sets else (columns[0],)
     flat = len(columns) >= ANKLED_JOINTS
     row = chain.driven[pitch[0]]
-    axis, origin = zero.axes[row], zero.origins[row]
-    hip = origin + axis * (axis @ (zero.point(foot) - origin))
+    level = _levelled(chain, row, up)
+    pose = chain.pose(level)
+    axis, origin = pose.axes[row], pose.origins[row]
+    hip = origin + axis * (axis @ (pose.point(foot) - origin))
     length = 0.0
     if chain.joints[row].kind is not JointKind.PRISMATIC:
-        stretched = chain.pose(chain.stretched(foot, -up, pitch[:2] if flat else pitch))
+        bending = pitch[:2] if flat else pitch
+        stretched = chain.pose(chain.stretched(foot, -up, bending, start=level))
         length = float(up @ (hip - stretched.point(foot)))
     forward = np.cross(axis, up)
     norm = float(np.linalg.norm(forward))
@@ -181,7 +186,41 @@ def leg_plane(chain: Chain, foot: FloatArray, up: FloatArray) -> LegPlane:
         forward = np.zeros(3)
     else:
         forward = np.sign(forward[np.argmax(np.abs(forward))]) * forward / norm
-    return LegPlane(pitch, axis, hip, forward, columns, flat, length)
+    return LegPlane(pitch, axis, hip, forward, columns, flat, length, level)
+
+
+_LEVEL = 1e-3
+"""Largest product of a level axis and the vertical: public robots' hips are level to 1e-16."""
+
+
+def _levelled(chain: Chain, row: int, up: FloatArray) -> FloatArray:
+    """Driven joints at zero [rad or m], except the one that turns the axis of joint `row` level.
+
+    Robots whose legs are spread at zero stand like those whose legs are straight: their length and
+    what is below the hip do not depend on where an encoder has its zero. The joint is the nearest
+    before it that can, turned by the smaller angle; none, if the limits forbid it.
+    """
+    values = np.zeros(len(chain.driven))
+    zero = chain.pose(values)
+    axis = zero.axes[row]
+    if abs(axis @ up) < _LEVEL:
+        return values
+    for column in reversed([c for c, other in enumerate(chain.driven) if other < row]):
+        joint, turned = chain.joints[chain.driven[column]], zero.axes[chain.driven[column]]
+        # up @ axis = constant + cosine cos(angle) + sine sin(angle).
+        constant = float(up @ turned) * float(turned @ axis)
+        cosine, sine = float(up @ axis) - constant, float(up @ np.cross(turned, axis))
+        swing = np.hypot(cosine, sine)
+        if joint.kind is JointKind.PRISMATIC or abs(constant) >= swing:
+            continue
+        middle, half = np.arctan2(sine, cosine), np.arccos(-constant / swing)
+        angles = [nearest_turn(float(middle + s * half), joint.lower, joint.upper) for s in (1, -1)]
+        angle = min(angles, key=abs)
+        residual = constant + cosine * np.cos(angle) + sine * np.sin(angle)
+        if abs(residual) < _LEVEL:
+            values[column] = angle
+            return values
+    return values
 
 
 def leg_of(

@@ -143,11 +143,11 @@ def _outward_joints(robot: Robot) -> Mapping[str, float]:
     signs = {}
     for geometry in geometries:
         plane, chain = geometry.plane, geometry.chain
-        zero = chain.pose(np.zeros(len(chain.driven)))
+        level = chain.pose(plane.level)
         knee = plane.pitch[min(1, len(plane.pitch) - 1)]
         outwards = plane.axis * (plane.axis @ (plane.hip - middle))
         # The first joint above the knee whose axis points forward.
-        axes = ((column, zero.axes[chain.driven[column]]) for column in plane.columns[:knee])
+        axes = ((column, level.axes[chain.driven[column]]) for column in plane.columns[:knee])
         first = next((pair for pair in axes if abs(pair[1] @ plane.forward) > 0.9), None)
         if first is None:
             return {}

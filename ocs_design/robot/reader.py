@@ -14,7 +14,12 @@ from ocs_design.common.files import AnyPath
 from ocs_design.common.units import format_quantity
 from ocs_design.common.wording import some_of
 from ocs_design.robot.checks import plausibility_warnings
-from ocs_design.robot.leg_geometry import BASE_FRAME, convention_warnings, with_base_frame
+from ocs_design.robot.leg_geometry import (
+    BASE_FRAME,
+    convention_warnings,
+    hanging_warnings,
+    with_base_frame,
+)
 from ocs_design.robot.links import Warnings, check_total_mass
 from ocs_design.robot.meshes import MESHES, lacks_mesh, trunk_top, unmeasured, with_y_up
 from ocs_design.robot.packages import MeshFinder
@@ -224,6 +229,8 @@ def read_robot(
         frame_warnings = tuple(convention_warnings(tree, base, found_legs))
     else:
         base = BASE_FRAME
+    if trunk is None:
+        frame_warnings = (*frame_warnings, *hanging_warnings(tree, base, found_legs))
     resolved = resolve_posture(tree, base, found_legs, posture, joints or {})
     properties = tree.locked_mass_properties(resolved.values, base)
     check_total_mass(properties, tree)

@@ -6,7 +6,7 @@ what speaks against it. No sign decides alone: names may mislead, meshes may be 
 zero posture may be anything.
 """
 
-from collections.abc import Sequence
+from collections.abc import Container, Iterator, Sequence
 from itertools import combinations
 
 import numpy as np
@@ -64,7 +64,7 @@ def recognise(
     Raises:
         RobotError: named legs cannot be legs.
     """
-    anatomy = _Readings(tree)
+    anatomy = _Readings(tree, trunk)
     given = (("trunk", trunk is not None), ("legs", legs is not None))
     specified = frozenset(what for what, is_given in given if is_given)
     if legs is not None:
@@ -175,6 +175,9 @@ def _best(readings: Sequence[Reading]) -> Reading:
 
 _UPS = np.eye(3)[[2, 1, 0]]
 
+_ALIGNED = 0.999
+"""Least product of two unit vectors that count as one axis (3 degrees)."""
+
 _LONGER = 1.2
 """Ratio by which legs must be longer along another axis for that to be up."""
 
@@ -182,8 +185,45 @@ _LIGHT_TRUNK = 0.2
 """Share of the mass that is carried, below which the legs seem to be most of the robot."""
 
 
+_GROUNDED = 0.25
+"""Height of the hips above a frame, over the legs' reach, from which it seems to be on the ground.
+
+The frames of public robots' trunks are less than 0.01 below the hips, or above them.
+"""
+
+
 class _Readings(Anatomy):
-    """Possible readings of a tree."""
+    """Possible readings of a tree.
+
+    Attributes:
+        ups: axes of the root that may point up, the likeliest first, shape (n, 3).
+    """
+
+    def __init__(self, tree: Tree, trunk: str | None) -> None:
+        super().__init__(tree)
+        self.ups = _UPS
+        if trunk is not None:
+            # The user names a frame whose z points up.
+            index = tree.body_of_link[trunk]
+            frame = self.placements[index] @ tree.bodies[index].links[trunk]
+            axis = int(np.argmax(np.abs(frame.rotation[:, 2])))
+            first = np.eye(3)[axis] * np.sign(frame.rotation[axis, 2])
+            self.ups = np.array([first, *(up for up in _UPS if (up != first).any())])
+
+    def link_of(self, trunk: int, limbs: Sequence[Limb], up: FloatArray) -> str:
+        """Link whose frame represents a trunk with legs; heights are those of its origin.
+
+        A root on the ground, such as `base_footprint`, would give the robot no height: then it is
+        the trunk's heaviest link, if its axes are the root's.
+        """
+        body, placement = self.tree.bodies[trunk], self.placements[trunk]
+        root, heaviest = frame_link(body), max(body.link_masses, key=body.link_masses.__getitem__)
+        hips = float(np.mean([up @ limb.hip for limb in limbs]))
+        least = hips - _GROUNDED * reach_of(limbs)
+        heights = [float(up @ (placement @ body.links[name]).position) for name in (root, heaviest)]
+        turned = body.links[root].rotation.T @ body.links[heaviest].rotation
+        aligned = bool((np.abs(turned).max(axis=0) > _ALIGNED).all())
+        return heaviest if heights[0] < least < heights[1] and aligned else root
 
     @property
     def heaviest(self) -> str:
@@ -198,40 +238,16 @@ class _Readings(Anatomy):
         """Every reading with legs, each set of feet once."""
         by_feet: dict[frozenset[int], Reading] = {}
         # Files of other conventions are rare: other axes are tried only if nothing hangs along z.
-        hanging = ((up, limbs) for up in _UPS if (limbs := self.hanging(up)))
-        upright, hanging_limbs = next(hanging, (_UPS[0], []))
-        if hanging_limbs:
-            upright = self._upright(hanging_limbs, upright)
-            hanging_limbs = [self.limb(limb.base, limb.last, upright) for limb in hanging_limbs]
-        for up in upright[None] if hanging_limbs else _UPS:
-            limbs = self.limbs(up)
-            sets = [group for group in sets_of(limbs) if self.may_stand(group, up)]
-            # Legs that differ, such as a prosthesis, are recognised by their names alone.
-            named = [limb for limb in limbs if self.names([limb])]
-            bases = {group[0].base for group in sets}
-            named = [limb for limb in named if not bases & self.inside([limb])]
-            for base in sorted({limb.base for limb in named}):
-                unlike = [limb for limb in named if limb.base == base]
-                if unlike not in sets:
-                    sets.append(unlike)
-            sets += [hanging_limbs] if hanging_limbs else []
-            sets = [self.one_of_each_pair(group, up) for group in sets]
-            for chosen in (*sets, *self.spines(sets, up), *self.single(limbs, up)):
-                feet = frozenset(limb.last for limb in chosen)
-                ordered = sorted(chosen, key=lambda limb: limb.last)
-                legs = tuple(
-                    leg_of(self.tree, limb.base, limb.last, up, self.placements) for limb in ordered
-                )
-                if feet in by_feet or any(leg.length <= 0.0 for leg in legs):
-                    continue
-                trunk = self._spine_trunk([limb.base for limb in chosen])
-                signs, doubts = self._signs(chosen, sets, up)
-                reading = Reading(frame_link(self.tree.bodies[trunk]), legs, signs, doubts)
-                # If `up` is wrong, some limbs hang by chance.
-                if up[2] == 1.0 or hanging_limbs or _sign_holds(reading, NAMES):
-                    by_feet[feet] = reading
+        upright, hanging_limbs = next(self._hanging_along(self.ups), (self.ups[0], []))
+        for up in upright[None] if hanging_limbs else self.ups:
+            by_feet.update(self._readings_along(up, hanging_limbs, by_feet))
             if any(candidate.confidence >= _LIKELY for candidate in by_feet.values()):
                 break
+        # An axis that points down, such as a camera's y, is up only if that settles the matter.
+        if all(candidate.confidence < SURE for candidate in by_feet.values()):
+            for up, limbs in self._hanging_along(-self.ups):
+                along = self._readings_along(up, limbs, {})
+                by_feet.update((k, v) for k, v in along.items() if v.confidence >= SURE)
         readings = list(by_feet.values())
         # For robots with a spine, its other ends as trunk.
         for candidate in by_feet.values():
@@ -243,6 +259,49 @@ class _Readings(Anatomy):
                     doubts = (*candidate.doubts, lighter)
                     readings.append(Reading(name, candidate.legs, candidate.signs, doubts))
         return readings
+
+    def _hanging_along(self, ups: FloatArray) -> Iterator[tuple[FloatArray, list[Limb]]]:
+        """Axes along which limbs clearly hang, each with its limbs; or along which they lie."""
+        for up in ups:
+            if limbs := self.hanging(up):
+                upright = self._upright(limbs, up)
+                yield upright, [self.limb(limb.base, limb.last, upright) for limb in limbs]
+
+    def _readings_along(
+        self, up: FloatArray, hanging: list[Limb], known: Container[frozenset[int]]
+    ) -> dict[frozenset[int], Reading]:
+        """Readings with `up` upwards, by their feet; without those whose feet are `known`.
+
+        `hanging`: limbs that clearly hang along it, if any.
+        """
+        by_feet: dict[frozenset[int], Reading] = {}
+        limbs = self.limbs(up)
+        sets = [group for group in sets_of(limbs) if self.may_stand(group, up)]
+        # Legs that differ, such as a prosthesis, are recognised by their names alone.
+        named = [limb for limb in limbs if self.names([limb])]
+        bases = {group[0].base for group in sets}
+        named = [limb for limb in named if not bases & self.inside([limb])]
+        for base in sorted({limb.base for limb in named}):
+            unlike = [limb for limb in named if limb.base == base]
+            if unlike not in sets:
+                sets.append(unlike)
+        sets += [hanging] if hanging else []
+        sets = [self.one_of_each_pair(group, up) for group in sets]
+        for chosen in (*sets, *self.spines(sets, up), *self.single(limbs, up)):
+            feet = frozenset(limb.last for limb in chosen)
+            ordered = sorted(chosen, key=lambda limb: limb.last)
+            legs = tuple(
+                leg_of(self.tree, limb.base, limb.last, up, self.placements) for limb in ordered
+            )
+            if feet in known or feet in by_feet or any(leg.length <= 0.0 for leg in legs):
+                continue
+            trunk = self._spine_trunk([limb.base for limb in chosen])
+            signs, doubts = self._signs(chosen, sets, up)
+            reading = Reading(self.link_of(trunk, chosen, up), legs, signs, doubts)
+            # If `up` is wrong, some limbs hang by chance.
+            if (up == self.ups[0]).all() or hanging or _sign_holds(reading, NAMES):
+                by_feet[feet] = reading
+        return by_feet
 
     def _upright(self, limbs: Sequence[Limb], up: FloatArray) -> FloatArray:
         """Up of a robot that lies down at zero: the axis along which its legs lie and are longest.
@@ -330,7 +389,7 @@ class _Readings(Anatomy):
                     hint="name the feet with --legs, and the link that carries them with --trunk",
                 )
         up = (
-            max(_UPS, key=lambda axis: self._hanging_score(bodies, bases, axis))
+            max(self.ups, key=lambda axis: self._hanging_score(bodies, bases, axis))
             if up is None
             else up
         )
@@ -358,12 +417,12 @@ class _Readings(Anatomy):
             *((Doubt(SPINE, 1.0),) if len(set(bases)) > 1 else ()),
             *((Doubt(how, 1.0),) if (how := self.closed_chain(limbs, up)) else ()),
         )
-        name = trunk or frame_link(self.tree.bodies[self._spine_trunk(bases)])
+        name = trunk or self.link_of(self._spine_trunk(bases), limbs, up)
         return Reading(name, tuple(legs), _SPECIFIED, doubts)
 
     def _hanging_score(self, bodies: Sequence[int], bases: Sequence[int], up: FloatArray) -> float:
         """Score of an axis as up: how far the legs hang and reach along it, with z preferred."""
-        total = 0.5 * up[2] - 0.1 * up[0]
+        total = 0.5 * float(up @ self.ups[0]) - 0.1 * up[0]
         for body, base in zip(bodies, bases, strict=True):
             limb = self.limb(base, body, up)
             reach = max(limb.reach, 1e-9)
@@ -453,7 +512,7 @@ class _Readings(Anatomy):
             doubts.append(Doubt("a single limb may just as well be an arm", 0.6))
         left_out = [
             self.tree.bodies[limb.last].name
-            for limb in self.limbs(up)
+            for limb in self._all_limbs(up)
             if limb.last not in inside
             and any(
                 (limb.base, limb.hinges) == (chosen_limb.base, chosen_limb.hinges)

@@ -76,18 +76,19 @@ class StanceProblem:
         chain, plane, up = self.geometry.chain, self.geometry.plane, self.geometry.up
         lower, upper, columns = chain.lower, chain.upper, list(plane.columns)
         stances: list[Stance] = []
-        stretched = chain.stretched(self.geometry.leg.foot, -up, plane.pitch)
+        stretched = chain.stretched(self.geometry.leg.foot, -up, plane.pitch, start=plane.level)
         # Bend that shortens a straight leg to the target's distance.
         reach = float(np.linalg.norm(self.target - plane.hip))
         angle = np.arccos(np.clip(reach / plane.length, 0.0, 1.0))
         bend = np.zeros(len(chain.driven))
         # Turning the hip by a positive angle about `pitch` swings a hanging leg to -pitch x up.
         towards = -np.sign(np.cross(plane.axis, up) @ self.knee_side)
+        straight, axes = np.clip(plane.level, lower, upper), chain.pose(plane.level).axes
         for column, turns in zip(plane.pitch, (1.0, -2.0, 1.0), strict=False):
-            axis = self._zero.axes[chain.driven[column]]
+            axis = axes[chain.driven[column]]
             bend[column] = towards * turns * angle * np.sign(axis @ plane.axis)
         # The straight and the stretched leg, each bent to the desired side, then to the other.
-        for side, values in product((1.0, -1.0), (chain.neutral(), stretched)):
+        for side, values in product((1.0, -1.0), (straight, stretched)):
             start = np.clip(values + side * bend, lower, upper)[columns]
             solution = least_squares(
                 self._residual,

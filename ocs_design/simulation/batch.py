@@ -41,7 +41,7 @@ class Recording:
         momentum: angular, about the centre of mass or the pivot, in the world [N m s], (k, n, 3).
         impulse: of the external torque since the start, and of gravity's about a pivot, in the
             world [N m s], (k, n, 3).
-        height: of the trunk's body over the floor [m], (k, n).
+        height: of B's origin over the floor [m], (k, n).
         contact: whether anything touches the floor before the next instant, (k, n).
         pose_stride: control steps from one recorded pose to the next; 0: no poses are recorded.
         qpos: the poses, as the models have them, (frames, n, nq).

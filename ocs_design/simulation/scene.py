@@ -80,14 +80,17 @@ def robot_scene(robot: Robot) -> mujoco.MjSpec:
     add_drives(spec, robot)
     hold_other_joints(spec, robot)
     kind, object_kind = mujoco.mjtSensor, mujoco.mjtObj
-    root, trunk = robot.tree.bodies[0].name, trunk_body(spec, robot)[0].name
+    # Heights are those of B's origin, which may be far from that of the trunk's body.
+    trunk, base = trunk_body(spec, robot)
+    trunk.add_site(name=Sensor.TRUNK.value, pos=base.position)
+    root, site = robot.tree.bodies[0].name, Sensor.TRUNK.value
     # Data "found", no reduction, one slot: the sensor counts contacts with the floor.
     count_contacts = [1, 0, 1]
     for name, measured, of, target, parameters in (
         (Sensor.CONTACT, kind.mjSENS_CONTACT, object_kind.mjOBJ_GEOM, FLOOR, count_contacts),
         (Sensor.COM, kind.mjSENS_SUBTREECOM, object_kind.mjOBJ_BODY, root, [0, 0, 0]),
         (Sensor.MOMENTUM, kind.mjSENS_SUBTREEANGMOM, object_kind.mjOBJ_BODY, root, [0, 0, 0]),
-        (Sensor.TRUNK, kind.mjSENS_FRAMEPOS, object_kind.mjOBJ_XBODY, trunk, [0, 0, 0]),
+        (Sensor.TRUNK, kind.mjSENS_FRAMEPOS, object_kind.mjOBJ_SITE, site, [0, 0, 0]),
     ):
         spec.add_sensor(name=name, type=measured, objtype=of, objname=target, intprm=parameters)
     flight_options(spec)

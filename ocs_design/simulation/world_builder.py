@@ -236,7 +236,7 @@ def addresses(model: mujoco.MjModel, device: Device) -> Addresses:
         wheels=tuple(int(model.joint(name).dofadr[0]) for name in joints),
         motors=tuple(model.actuator(name).id for name in joints),
         flywheels=tuple(model.body(name).id for name in flywheel_names(device)),
-        trunk=int(model.sensor(Sensor.TRUNK.value).objid[0]),
+        trunk=int(model.site(Sensor.TRUNK.value).bodyid[0]),
         contact=sensor_address[Sensor.CONTACT],
         com=sensor_address[Sensor.COM],
         momentum=sensor_address[Sensor.MOMENTUM],

@@ -143,3 +143,75 @@ def test_all_legs_are_found_whichever_axis_is_up(name, rpy, tmp_path):
     np.testing.assert_allclose(np.linalg.eigvalsh(rotated_robot.inertia), inertia, rtol=1e-6)
     # Roll, pitch and yaw axes are the same, with x forward or backward.
     np.testing.assert_allclose(np.diag(rotated_robot.inertia), np.diag(robot.inertia), rtol=1e-4)
+
+
+def fixed(child, rpy, parent="new_root", xyz="0 0 0"):
+    """A link fixed to another."""
+    return (
+        f'<link name="{child}"/><joint name="fix_{child}" type="fixed"><parent link="{parent}"/>'
+        f'<child link="{child}"/><origin xyz="{xyz}" rpy="{rpy}"/></joint></robot>'
+    )
+
+
+DOWNWARDS = {
+    "z down": f"{np.pi} 0 0",
+    "y down": f"{RIGHT} 0 0",
+    "camera": f"{RIGHT} {-RIGHT} 0",
+    "x down": f"0 {-RIGHT} 0",
+}
+
+
+@pytest.mark.parametrize(
+    "rpy", [*ROTATIONS.values(), *DOWNWARDS.values()], ids=[*ROTATIONS, *DOWNWARDS]
+)
+def test_a_named_link_with_z_up_settles_which_way_is_up(rpy, tmp_path):
+    """This is the cure that the warnings about the trunk's frame name."""
+    robot = read_robot(SOLO12)
+    rotated(tmp_path, SOLO12, "base_link", rpy)
+    file = tmp_path / "rotated.urdf"
+    file.write_text(file.read_text().replace("</robot>", fixed("upright", rpy)))
+    named = read_robot(file, trunk="upright", package_paths={"example-robot-data": ROBOTS.parent})
+    assert [leg.name for leg in named.legs] == [leg.name for leg in robot.legs]
+    assert named.recognition.sure
+    assert named.standing_height == pytest.approx(robot.standing_height, abs=1e-6)
+    np.testing.assert_allclose(named.inertia, robot.inertia, atol=1e-8)
+    assert not any("--trunk" in warning for warning in named.warnings)
+
+
+@pytest.mark.parametrize("rpy", [*DOWNWARDS.values()][1:], ids=[*DOWNWARDS][1:])
+@pytest.mark.parametrize("name", QUADRUPEDS, ids=lambda name: name.partition("_")[0])
+def test_an_axis_along_which_all_legs_hang_is_down(rpy, name, tmp_path):
+    """Two of the four legs can stretch along the trunk, and would pass for those of a biped."""
+    robot = read_robot(ROBOTS / name)
+    root = next(iter(robot.tree.bodies[0].links))
+    rotated_robot = rotated(tmp_path, ROBOTS / name, root, rpy)
+    assert [leg.name for leg in rotated_robot.legs] == [leg.name for leg in robot.legs]
+    assert rotated_robot.recognition.sure
+    np.testing.assert_allclose(np.diag(rotated_robot.inertia), np.diag(robot.inertia), rtol=1e-4)
+
+
+def test_legs_that_point_up_at_zero_raise_a_warning(tmp_path):
+    robot = rotated(tmp_path, SOLO12, "base_link", DOWNWARDS["z down"])
+    (warning,) = (warning for warning in robot.warnings if "if that is down" in warning)
+    assert "at zero the legs point along +z" in warning
+    assert "--trunk" in warning
+    assert not any("if that is down" in warning for warning in read_robot(SOLO12).warnings)
+
+
+@pytest.mark.parametrize("below", [0.2, 0.25, 0.3])
+def test_a_root_on_the_ground_does_not_represent_the_trunk(below, tmp_path):
+    file = tmp_path / "footprint.urdf"
+    text = Path(SOLO12).read_text()
+    root = (
+        '<link name="base_footprint"/><joint name="up" type="fixed"><parent link="base_footprint"/>'
+        f'<child link="base_link"/><origin xyz="0 0 {below}"/></joint></robot>'
+    )
+    file.write_text(text.replace("</robot>", root))
+    paths = {"example-robot-data": ROBOTS.parent}
+    robot, grounded = read_robot(SOLO12), read_robot(file, package_paths=paths)
+    assert grounded.trunk == "base_link"
+    assert grounded.floating_base == "base_footprint"
+    assert grounded.standing_height == robot.standing_height
+    np.testing.assert_allclose(grounded.com, robot.com, atol=1e-12)
+    # What the user names is taken as it is.
+    assert read_robot(file, trunk="base_footprint", package_paths=paths).trunk == "base_footprint"

@@ -1,5 +1,7 @@
 """The standing posture and lifted feet, checked by Pinocchio and the whole tree."""
 
+from dataclasses import replace
+
 import numpy as np
 import pinocchio as pin
 import pytest
@@ -9,7 +11,9 @@ from robots import ROBOTS, robot_parameters
 
 from ocs_design.robot.leg_geometry import leg_geometries, sole_depths
 from ocs_design.robot.reader import read_robot
+from ocs_design.robot.recognition import recognise
 from ocs_design.robot.stance import SHARE_OF_LEG, lifted, stand
+from ocs_design.robot.tree import joint_motion
 
 SOLO12 = "solo_description/robots/solo12"
 # Shares of the leg where ankles cannot bend enough: Romeo's by 30 degrees, those of the simple
@@ -182,3 +186,31 @@ def test_a_foot_out_of_reach_stays_within_the_joint_limits(robot, leg):
     (values,) = lifted(leg.chain, leg.leg.foot, leg.leg.length, posture_of(robot, leg), height)
     assert np.all((values >= leg.chain.lower) & (values <= leg.chain.upper))
     assert np.isfinite(values).all()
+
+
+@pytest.mark.parametrize("outwards", [0.3, -0.6])
+@pytest.mark.parametrize(
+    "name", [SOLO12, "go2_description/urdf/go2", "bolt_description/robots/bolt"]
+)
+def test_legs_that_are_spread_at_zero_stand_as_they_do_without(name, outwards):
+    """Where an encoder has its zero changes neither the robot nor how it stands."""
+    tree, legs, stance = standing(name)
+    rolls = {leg.joints[0]: outwards * (1 if "L" in leg.joints[0][:2] else -1) for leg in legs}
+
+    def spread(body):
+        """The body with the zero of its joint turned outwards."""
+        if body.joint is None or body.joint.name not in rolls:
+            return body
+        joint, angle = body.joint, rolls[body.joint.name]
+        limits = {"lower": joint.lower - angle, "upper": joint.upper - angle}
+        placement = body.placement @ joint_motion(joint, angle)
+        return replace(body, placement=placement, joint=replace(joint, **limits))
+
+    turned = replace(tree, bodies=tuple(map(spread, tree.bodies)))
+    recognition = recognise(turned)
+    assert recognition.sure
+    found = recognition.reading
+    assert [leg.length for leg in found.legs] == pytest.approx([leg.length for leg in legs])
+    posture = stand(turned, found.trunk, found.legs).posture
+    for joint, value in stance.posture.items():
+        assert posture[joint] + rolls.get(joint, 0.0) == pytest.approx(value, abs=1e-4)

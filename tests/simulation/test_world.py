@@ -11,7 +11,7 @@ from wheels import EC45_BODY, braked_inertia, driven_device, geared, paper_devic
 
 from ocs_design.common import quaternions
 from ocs_design.common.errors import SpecificationError
-from ocs_design.export.physics import HELD_ARMATURE, lowest_point, set_gains
+from ocs_design.export.physics import HELD_ARMATURE, lowest_point, set_gains, set_trunk
 from ocs_design.requirement.turns import Drop
 from ocs_design.robot.mujoco_model import build_spec, trunk_body
 from ocs_design.robot.reader import read_robot
@@ -19,7 +19,7 @@ from ocs_design.simulation.metrics import measure
 from ocs_design.simulation.scene import Wheels, compile_scene, robot_scene
 from ocs_design.simulation.simulate import simulate
 from ocs_design.simulation.world import TrunkChain
-from ocs_design.simulation.world_builder import WorldBuilder, wheel_gains
+from ocs_design.simulation.world_builder import WorldBuilder, addresses, wheel_gains
 
 GEARED = driven_device(drive=geared(1.5))
 
@@ -269,3 +269,20 @@ def test_a_ball_joint_is_held_as_in_the_robots_tree(solo12, tmp_path):
     model = robot_scene(robot).compile()
     first = model.joint("b").dofadr[0]
     np.testing.assert_array_equal(model.dof_armature[first : first + 3], HELD_ARMATURE)
+
+
+def test_heights_are_those_of_the_base_frame(solo12, tmp_path):
+    """Its trunk may be a link far from the origin of the body that it is part of."""
+    root = (
+        '<link name="footprint"/><joint name="up" type="fixed"><parent link="footprint"/>'
+        '<child link="base_link"/><origin xyz="0 0 0.25"/></joint></robot>'
+    )
+    text = SOLO12.read_text().replace("</robot>", root)
+    (path := tmp_path / "robot.urdf").write_text(text)
+    robot = read_robot(path, trunk="base_link", package_paths={"example-robot-data": ROBOTS.parent})
+    model = compile_scene(robot_scene(robot), robot, driven_device(), Wheels.ACTIVE, 9.81)
+    data = mujoco.MjData(model)
+    set_trunk(robot, model, data, np.eye(3), robot.standing_height)
+    mujoco.mj_forward(model, data)
+    height = data.sensordata[addresses(model, driven_device()).height]
+    assert height == pytest.approx(robot.standing_height, abs=1e-9)
