@@ -63,7 +63,7 @@ from ocs_design.requirement.vocabulary import (
 )
 from ocs_design.requirement.worded_maneuvers import Worded, assumption_with_device, worded_maneuvers
 from ocs_design.robot.manual import assumed_trunk, person, robot_by_hand
-from ocs_design.robot.mass import impossible_size
+from ocs_design.robot.mass import DENSEST, ball_density, impossible_size
 from ocs_design.robot.reader import read_robot
 from ocs_design.robot.recognition import question_about
 from ocs_design.robot.robot import Robot
@@ -136,10 +136,15 @@ def read_specified_robot(
         _check_units(specified.joints or {}, robot)
         impossible = impossible_size(robot.mass_properties) if sure else None
         if impossible is not None:
+            likely = (
+                "masses in grams"
+                if ball_density(robot.mass_properties) > DENSEST
+                else "lengths in millimetres, or its inertias in g mm^2 or kg mm^2"
+            )
             raise RobotError(
                 f"{specified.file}: {impossible}",
-                hint="a robot file is in kg, m and kg m^2: are its masses in grams, or its lengths "
-                f"in millimetres? See `ocs-design inspect {specified.file}`",
+                hint=f"a robot file is in kg, m and kg m^2: are its {likely}? See "
+                f"`ocs-design inspect {specified.file}`",
             )
         if sure and robot.recognition is not None and not robot.recognition.sure:
             question = question_about(robot.recognition)

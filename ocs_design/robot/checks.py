@@ -14,6 +14,7 @@ from typing import TypeAlias
 import numpy as np
 
 from ocs_design.common.arrays import FloatArray
+from ocs_design.common.frames import Placement
 from ocs_design.robot.leg_geometry import sole_depths
 from ocs_design.robot.legs import is_wheel
 from ocs_design.robot.links import Warnings
@@ -52,7 +53,8 @@ def plausibility_warnings(
             )
         elif density < LIGHTEST_ROBOT:
             warnings.add(
-                f"{summary}, as light as air (lengths in millimetres, or masses in tonnes?)"
+                f"{summary}, as light as air (lengths in millimetres, inertias in g mm2, or masses "
+                "in tonnes?)"
             )
         for body in tree.bodies:
             _judge_body(body, warnings)
@@ -291,9 +293,20 @@ _MIRROR = np.diag([1.0, -1.0, 1.0])
 def _judge_mirror_images(tree: Tree, trunk: str, legs: Sequence[Leg], warnings: Warnings) -> None:
     """Compare each leg on the left with the mirror image of one on the right, joints at zero."""
     placements = tree.placements_from(trunk, {})
+    paths = [tree.path(leg.base, leg.body) for leg in legs]
+    aside = _distance_aside(legs, [placements[path[0]].position for path in paths])
+    if aside:
+        side = "left" if aside < 0.0 else "right"
+        warnings.add(
+            f"the frame of the trunk '{trunk}' is {1e3 * abs(aside):.3g} mm {side} of the middle "
+            "between the legs, and modules are placed about it: fix a link in the middle to the "
+            "trunk and name it with --trunk"
+        )
+        middle = Placement(np.eye(3), np.array([0.0, -aside, 0.0]))
+        placements = tuple(middle @ placement for placement in placements)
     masses = tree.mass_properties_at(placements)
     parts = [*zip(tree.bodies, masses, (place.position for place in placements), strict=True)]
-    sides = [(leg, [parts[i] for i in tree.path(leg.base, leg.body)]) for leg in legs]
+    sides = [(leg, [parts[i] for i in path]) for leg, path in zip(legs, paths, strict=True)]
     left = [side for side in sides if _hip(side)[1] > 0.0]
     right = [side for side in sides if _hip(side)[1] < 0.0]
     for one in left if len(left) == len(right) else ():
@@ -307,6 +320,25 @@ def _judge_mirror_images(tree: Tree, trunk: str, legs: Sequence[Leg], warnings: 
         for pair in zip(bodies, twins, strict=True):
             for finding in _differences(*pair, max(leg.length, twin.length)):
                 warnings.add(finding, ", ".join(body.name for body, _, _ in pair))
+
+
+def _distance_aside(legs: Sequence[Leg], hips: Sequence[FloatArray]) -> float:
+    """Where the plane between left and right meets B's y axis [m]; zero if B's origin is on it.
+
+    A single pair of legs does not tell a frame aside from a hip that is misplaced, so that two
+    pairs or more must agree.
+    """
+    tolerance = 0.5 * SHIFT_SHARE * max((leg.length for leg in legs), default=0.0)
+    ordered = sorted(hips, key=lambda hip: float(hip[1]))
+    half = len(ordered) // 2
+    if half < 2 or len(ordered) % 2:
+        return 0.0
+    middles = []
+    for hip in ordered[half:]:
+        twin = min(ordered[:half], key=lambda other: float(np.linalg.norm((other - hip)[[0, 2]])))
+        middles.append(0.5 * float(hip[1] + twin[1]))
+    aside = float(np.mean(middles))
+    return aside if np.ptp(middles) < tolerance < abs(aside) else 0.0
 
 
 _Part: TypeAlias = tuple[Body, MassProperties, FloatArray]

@@ -241,3 +241,27 @@ def test_extreme_numbers_raise_no_arithmetic_warning(tmp_path, tag, factor):
     scaled(root, tag, factor)
     with suppress(RobotError):
         assert read(root, tmp_path).name == "test"
+
+
+@pytest.mark.parametrize("aside", [0.03, -0.15])
+def test_a_trunk_frame_beside_the_middle_is_named_instead_of_its_legs(tmp_path, aside):
+    root = quadruped()
+    shift = ET.SubElement(root, "joint", name="aside", type="fixed")
+    ET.SubElement(root, "link", name="imu")
+    ET.SubElement(shift, "parent", link="imu")
+    ET.SubElement(shift, "child", link="trunk")
+    ET.SubElement(shift, "origin", xyz=f"0 {aside} 0")
+    (warning,) = read(root, tmp_path).warnings
+    side = "right" if aside > 0.0 else "left"
+    assert f"'imu' is {1e3 * abs(aside):.0f} mm {side} of the middle between the legs" in warning
+    # The cure that it names.
+    assert read(root, tmp_path, trunk="trunk").warnings == ()
+
+
+def test_inertias_in_another_unit_are_named_for_a_robot_as_light_as_air(tmp_path):
+    root = quadruped()
+    scaled(root, "inertia", 1e9)
+    assert any(
+        re.search("as light as air.*inertias in g mm2", warning)
+        for warning in read(root, tmp_path).warnings
+    )
