@@ -16,17 +16,22 @@ See `blocks`. Kinds:
     certificates: all      the same of every robot there, as a table
     characteristic: SHARE  how often the sequential test says what, exactly
     distributions: all     table of what samples draw, with the sources
+    records: all           tables of the keys of `design.json`, from the docstrings of its records
 """
 
 import argparse
+import inspect
 import os
+import re
 import shlex
 import subprocess
 import sys
 import tempfile
 from collections.abc import Callable, Iterator, Mapping
+from dataclasses import fields, is_dataclass
 from functools import cache
 from pathlib import Path
+from typing import get_args, get_type_hints
 
 sys.path.insert(0, str(Path(__file__).parent))  # for those who load this file from elsewhere
 
@@ -37,6 +42,7 @@ from blocks import table
 from typer.core import TyperCommand, TyperGroup
 
 from ocs_design.cli.app import app
+from ocs_design.device.records.design import OcsDesign
 from ocs_design.requirement.keys import keys_of
 from ocs_design.requirement.kinds import MANEUVER_KINDS
 from ocs_design.requirement.specification import SECTIONS
@@ -141,6 +147,42 @@ def distributions(_which: str) -> str:
     return table(("key", "default", "drawn", "what it rests on"), rows)
 
 
+def records(_which: str) -> str:
+    """Tables of the keys below each key of `design.json`."""
+    places: dict[type, list[str]] = {}
+    for place, record in records_below(OcsDesign, ""):
+        places.setdefault(record, []).append(f"`{place}`")
+    parts = []
+    for record, where in places.items():
+        rows = [(f"`{key}`", meaning) for key, meaning in keys_and_meanings(record).items()]
+        parts.append(f"### {', '.join(where)}\n\n{table(('key', 'meaning'), rows)}")
+    return "\n" + "\n".join(parts) + "\n"
+
+
+def records_below(record: type, place: str) -> Iterator[tuple[str, type]]:
+    """Records in the fields of one, each with its place; `[]` stands for the entries of a list."""
+    for name, hint in get_type_hints(record).items():
+        inner = f"{place}.{name}".lstrip(".")
+        for option in (hint, *get_args(hint)):
+            entries_of_list = "[]" if tuple in {hint, getattr(hint, "__origin__", None)} else ""
+            if is_dataclass(option) and name in {field.name for field in fields(record)}:
+                yield inner + entries_of_list, option
+                yield from records_below(option, inner + entries_of_list)
+
+
+def keys_and_meanings(record: type) -> Mapping[str, str]:
+    """Keys of a record, each with its meaning by the docstrings of the class and its bases."""
+    names = [field.name for field in fields(record)]
+    key, meanings = "|".join(names), {}
+    for part in reversed(record.__mro__):
+        _, _, listed = (inspect.cleandoc(part.__doc__ or "")).partition("\nAttributes:\n")
+        text = " ".join(listed.partition("\n\n")[0].split())
+        _, *told = re.split(rf"(?:^|(?<=[.\]] )|(?<=\.\) ))((?:(?:{key})(?:, )?)+): ", text)
+        for group, meaning in zip(told[::2], told[1::2], strict=True):
+            meanings |= dict.fromkeys(group.split(", "), meaning.strip().replace("None", "null"))
+    return {name: meanings[name] for name in names}
+
+
 @cache  # Two pages show the same one.
 def run(command_line: str, exit_code: int = 0) -> str:
     """The output of a command, both streams in order, in an empty folder with the examples."""
@@ -183,6 +225,7 @@ KINDS: Mapping[str, Callable[[str], str]] = {
     "maneuver keys": maneuver_keys,
     "source": source,
     "distributions": distributions,
+    "records": records,
     "certificate": certified.sentence,
     "certificates": certified.certificates,
     "characteristic": certified.characteristic,

@@ -1,6 +1,7 @@
 """The docs agree with the program."""
 
 import ast
+import json
 import os
 import re
 import shlex
@@ -9,15 +10,19 @@ import sys
 from pathlib import Path
 from urllib.parse import urlsplit
 
+import numpy as np
 import pytest
 import typer
 from products import CASES
 from scripts import script_at
+from stories import design
 
 import ocs_design
 from ocs_design.catalogue.motors import motors
+from ocs_design.common.files import to_json
 from ocs_design.requirement.reading import parse_specification
 from ocs_design.requirement.specification import Specification
+from ocs_design.simulation.run import Series
 
 ROOT = Path(__file__).parents[1]
 DOCS = ROOT / "docs"
@@ -220,6 +225,54 @@ def test_every_file_that_size_writes_is_on_the_page_of_the_output():
         folder, name = file.rsplit("/", 1)
         known = f"{folder}/" if folder in ("figures", "validation") else name
         assert known.replace("solo12_ocs", "<name>_ocs") in text, file
+
+
+def test_every_column_of_a_time_series_is_on_the_page_of_the_output():
+    text, one = (DOCS / "output.md").read_text(), np.zeros(1)
+    each, pair = np.zeros((1, 3)), np.zeros((1, 2))
+    series = Series(
+        one, each, one, one, one, each, pair, pair, pair, pair, one, ("a", "b"), one, one
+    )
+    for column in series.columns():
+        assert f"`{re.sub('_[ab]_', '_<module>_', column)}`" in text
+
+
+def records_in(value, place=""):
+    """Objects in a JSON document, each with its place; `[]` stands for the entries of a list."""
+    if isinstance(value, list):
+        for entry in value:
+            yield from records_in(entry, f"{place}[]")
+    elif isinstance(value, dict):
+        yield place, value
+        for key, entry in value.items():
+            yield from records_in(entry, f"{place}.{key}".lstrip("."))
+
+
+def test_every_key_of_a_design_has_its_meaning():
+    text = (DOCS / "design.md").read_text()
+    sections = {
+        place: re.findall(r"^\| `(\w+)` \| \S", table, re.MULTILINE)
+        for heading, table in re.findall(r"^### (.+)\n((?:.*\n)+?)(?=###|<!--)", text, re.MULTILINE)
+        for place in re.findall(r"`(.+?)`", heading)
+    }
+    # Their keys are names: of joints, metrics, criteria and the like.
+    tables = {f"ocs.incidence_by_criterion{of}" for of in ("", "_robot_alone")} | {
+        "robot.posture",
+        "robot.package_paths",
+        "requirement.maneuvers[].parameters",
+        "sizing.shadow_prices",
+        "reality",
+        "files",
+    }
+    records = dict(records_in(json.loads(to_json(design()))))
+    listed = (
+        (DOCS / "output.md").read_text().partition("\n## design.json\n")[2].partition("\n## ")[0]
+    )
+    cells = re.findall(r"^\| (`.+?`) \|", listed, re.MULTILINE)
+    assert set(records.pop("")) == set(re.findall(r"`(\w+)`", "".join(cells)))
+    for place, record in records.items():
+        assert place in tables or sections[place] == list(record)
+    assert len(set(records) - tables) > 20
 
 
 def test_every_reference_of_the_theory_is_listed():

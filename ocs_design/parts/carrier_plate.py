@@ -155,7 +155,8 @@ class CarrierPlate:
 
     Attributes:
         position: of the middle of its underside, or of all their undersides, in B [m].
-        radius, half_length, neck: of its outline; see `DogBone` [m].
+        radius: of the discs of its outline (`DogBone`) [m]. half_length: from its middle to any
+            end [m]. neck: half of the width of a disc's neck [m].
         thickness: [m].
         across: distance of the middle of each foot from the plate's, the first one's along y [m].
         window: radius of the hole under each foot, 0: none [m].

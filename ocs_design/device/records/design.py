@@ -52,7 +52,11 @@ LARGEST = 16 << 20
 
 @dataclass(frozen=True, kw_only=True)
 class Tool:
-    """Program that wrote the file."""
+    """Program that wrote the file.
+
+    Attributes:
+        name: `ocs-design`. version: of it.
+    """
 
     name: str
     version: str

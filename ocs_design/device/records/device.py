@@ -15,7 +15,13 @@ from ocs_design.parts.wheel import Flywheel
 
 @dataclass(frozen=True, kw_only=True)
 class ModuleRecord:
-    """Axis and position of one module, in B."""
+    """Axis and position of one module.
+
+    Attributes:
+        name: `left` and `right` of a pair, otherwise `1`, `2` and so on.
+        axis: about which its wheel turns, a unit vector in B.
+        position: of the wheel's centre in B [m].
+    """
 
     name: str
     axis: Vector
@@ -37,7 +43,11 @@ class Clearance:
 
 @dataclass(frozen=True, kw_only=True)
 class ReachRecord:
-    """A limb that could hit the device (`robot.clearance.Reach`)."""
+    """A limb that could hit the device (`robot.clearance.Reach`).
+
+    Attributes:
+        part: name of the body that hits it first. joints: values at the contact [rad or m].
+    """
 
     part: str
     joints: Mapping[str, float]
@@ -45,7 +55,16 @@ class ReachRecord:
 
 @dataclass(frozen=True, kw_only=True)
 class MountingRecord:
-    """How the device sits on its robot (`sizing.mounting.DeviceMounting`)."""
+    """How the device sits on its robot (`sizing.mounting.DeviceMounting`).
+
+    Attributes:
+        landing: clearance to parts that move relative to the trunk, while the legs give way as in
+            landings; None if there are none.
+        reachable: limbs that could hit a module somewhere within their joint limits.
+        com_shift: shift of the centre of mass by the device, in B [m].
+        inertia_change: change of Ixx, Iyy and Izz about the centre of mass, relative to the robot's
+            own.
+    """
 
     landing: Clearance | None
     reachable: tuple[ReachRecord, ...]
@@ -57,11 +76,31 @@ class MountingRecord:
 class OcsRecord:
     """The device, with the supports of its feet.
 
-    `mass_total` is of the whole device, with plate or pedestals [kg]; `total_...` of robot and
-    braked device. `center_of_mass` is of the device alone, in B; None in files of older versions.
-    `fitting` lists work left to do by hand: see `export.assembly_notes`. `layout` is the
-    arrangement of the axes, and `incidence` its angle: the axes of a pair are at plus and minus
-    that.
+    Attributes:
+        incidence: angle of the layout [rad]; the axes of a pair are at plus and minus that.
+        incidence_criterion: by which it was chosen.
+        incidence_by_criterion: under each criterion, for robot and device [rad].
+        incidence_by_criterion_robot_alone: the same for the robot alone.
+        heading_drift: yaw that a turn in roll, and one in pitch, brings about by the products of
+            inertia, over the angle of that turn.
+        spin_inertia: of one wheel with its rotor [kg m^2].
+        mass_total: of the whole device, with plate or pedestals [kg].
+        total_mass: of robot and device [kg]. total_com: their centre of mass in B [m].
+        total_inertia: of robot and braked device about it, in B [kg m^2].
+        modules: one for each wheel, all alike.
+        clearance: to the nearest part in the posture; None if the robot has no geometry.
+        flywheel: of each module. motor: of each, with its gear, at the supply's voltage.
+        carrier: stationary parts of each module: motor, gear, controller, housing, foot.
+        plate: under the feet; None: the feet stand on the trunk.
+        pedestals: under leaning feet.
+        guard_wall: wall of the steel ring in each housing [m]; 0: none.
+        foot_plate: thickness of the feet's plates [m].
+        on_bell: whether the wheels are rings around the motors' bells.
+        center_of_mass: of the device alone, in B [m]; None in files of older versions.
+        warnings: one sentence each.
+        fitting: work left to do by hand, one sentence each (`export.assembly_notes`).
+        mounting: how it sits on the robot.
+        layout: arrangement of the axes.
     """
 
     incidence: float

@@ -45,7 +45,11 @@ class Margin:
 
 @dataclass(frozen=True, kw_only=True)
 class OpenPoint:
-    """An obstacle to building a device, and the cure."""
+    """An obstacle to building a device.
+
+    Attributes:
+        what: prevents it, one sentence. cure: one sentence.
+    """
 
     what: str
     cure: str
@@ -53,7 +57,11 @@ class OpenPoint:
 
 @dataclass(frozen=True, kw_only=True)
 class Buildable:
-    """Whether the device can be built as designed; None where that is unknown."""
+    """Whether the device can be built as designed.
+
+    Attributes:
+        yes: None where that is unknown. open: what prevents it.
+    """
 
     yes: bool | None
     open: tuple[OpenPoint, ...] = ()
@@ -61,9 +69,14 @@ class Buildable:
 
 @dataclass(frozen=True, kw_only=True)
 class ControlRecord:
-    """The wheel law of the flights: `projection` of the torque, gains [1/s^2, 1/s], period [s].
+    """The wheel law of the flights.
 
-    `ballistic` flights start at lift-off, as in all designs that lack this field.
+    Attributes:
+        projection: of the torque on the trunk to the wheels.
+        kp: gain on the attitude error [1/s^2]. kd: on the rate error [1/s].
+        period: of the torque commands [s].
+        desaturate: whether the wheels are braked while the robot stands.
+        ballistic: whether flights start at lift-off, as in all designs that lack this field.
     """
 
     projection: Annotated[str, OneOf(PROJECTIONS)]

@@ -21,7 +21,12 @@ from ocs_design.robot.robot import Mount, Robot
 
 @dataclass(frozen=True, kw_only=True)
 class MountRecord:
-    """Placement of the base frame on the robot's own link; see `robot.Mount`."""
+    """Placement of the base frame B on the robot's own link; see `robot.Mount`.
+
+    Attributes:
+        link: of the robot's file.
+        rotation: from B to the link's frame. position: of B's origin in that frame [m].
+    """
 
     link: str
     rotation: Matrix
@@ -38,9 +43,25 @@ class MountRecord:
 
 @dataclass(frozen=True, kw_only=True)
 class RobotRecord:
-    """The robot alone, in the frame of its trunk; see `robot.Robot`.
+    """The robot alone, in the base frame B; see `robot.Robot`.
 
-    `package_paths` are the folders given for `package://` addresses, by package.
+    Attributes:
+        name: from the file, or given.
+        source: path of the file as given, `-` for standard input, `by hand`.
+        sha256: of the bytes that were read; empty by hand.
+        format: `urdf` (also from xacro), `mjcf` or `manual`.
+        trunk: link that carries the device; B is its frame, unless `mount` says otherwise.
+        floating_base: link of the tree's root.
+        posture_name: `zero`, `stand`, or the name of a keyframe or SRDF state, with ` + joints` if
+            some were set one by one.
+        posture: value of every moving joint [rad or m].
+        legs: link of each foot.
+        standing_height: of B's origin above the feet [m]; None without legs.
+        mass: [kg]. com: centre of mass in B [m].
+        inertia: about the centre of mass, in B, joints held at `posture` [kg m^2].
+        warnings: about the file, one sentence each.
+        mount: how B is fixed to the file's own link; None if `trunk` is a link of the file.
+        package_paths: folder of each package of `package://` addresses, as given.
     """
 
     name: str
@@ -78,7 +99,14 @@ class RobotRecord:
 
 @dataclass(frozen=True, kw_only=True)
 class ManeuverRecord:
-    """A maneuver: its kind, and the fields of that kind (SI)."""
+    """A required maneuver.
+
+    Attributes:
+        kind: as in `[[maneuver]]` of a specification. name: unique.
+        gravity: during it [m/s^2]; 0 in orbit.
+        incidence: to which the modules are turned by hand for it [rad]; None: the design's.
+        parameters: the other keys of its kind, as in a specification (SI).
+    """
 
     kind: str
     name: str
@@ -139,7 +167,11 @@ class ManeuverRecord:
 
 @dataclass(frozen=True, kw_only=True)
 class AxisInertia:
-    """Inertia that the wheels must provide about each axis, in the one-wheel model [kg m^2]."""
+    """Inertia that the wheels must provide about each axis, in the one-wheel model.
+
+    Attributes:
+        pitch, roll: largest momentum about the axis over `wheel_speed_max` [kg m^2].
+    """
 
     pitch: NotNegative
     roll: NotNegative
@@ -155,9 +187,17 @@ class AxisInertia:
 class RequirementRecord:
     """Requirement on the device, and all assumptions behind it.
 
-    `reliability` is the share of sampled robots that must pass; None: not required. `detection`
-    is the time until a stopped drive is detected [s], where the device must land level after any
-    one stops; None: not required.
+    Attributes:
+        maneuvers: all that are required.
+        rate_change: of the trunk, about roll or pitch alone [rad/s]; None: not required.
+        wheel_speed_max: highest speed of a wheel relative to the trunk [rad/s].
+        required_inertia: by the paper's bound, whatever the incidence.
+        spin_inertia_by_hand: of one wheel, if specified directly [kg m^2]; None: it is not.
+        demands: of each maneuver, or of the rate change about each axis, on the wheels.
+        assumptions: what was not specified, one sentence each.
+        reliability: share of sampled robots that must pass; None: not required.
+        detection: time until a stopped drive is detected [s], where the device must land level
+            after any one stops; None: not required.
     """
 
     maneuvers: tuple[ManeuverRecord, ...]

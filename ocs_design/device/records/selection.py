@@ -37,7 +37,7 @@ class RankedRecord:
     Attributes:
         motor, gear, material: names in the catalogues. gear_ratio: motor speed over wheel speed.
         incidence: [rad].
-        mass: of the whole device, the sum of the next five [kg].
+        mass: of the whole device, the sum of its five parts [kg].
         wheels_mass, motors_mass, gears_mass, housings_mass, plate_mass: [kg].
         spin_inertia: of each wheel [kg m^2].
         outer_radius, height: of its rim [m].
@@ -99,7 +99,8 @@ class PriceRecord:
     """Price of a limit: the mass that loosening it saves.
 
     Attributes:
-        limit: its name in `sizing.limits.LIMITS`. value: present [SI]. changed: looser [SI].
+        limit: its word, as in `binding` of a refusal: `r_max`, `bus_power`, `time`, ...
+        value: present [SI]; of the time, 1. changed: looser [SI].
         mass_change: of the whole device [kg], at most 0.
     """
 
@@ -155,7 +156,8 @@ class ReserveRecord:
             forms.
         scale: factor on every deviation; above 1 where simulated flights need more.
         nominal: mass of the lightest device without a reserve [kg].
-        maneuvers: see `ManeuverReserveRecord`. costs: the largest share first.
+        maneuvers: what is kept for each.
+        costs: of each uncertain quantity, the largest share first.
         curve: reliability and mass of the device of the same parts [kg], where there is one.
     """
 
@@ -181,8 +183,9 @@ class SelectionRecord:
         bus_voltage: [V]. reserve: usable fraction of voltage, current and speed limit.
         candidates: number of combinations examined.
         binding_maneuver: the one that requires the most spin inertia. binding: active limits.
-        tasks: of the chosen drive. ranking: lightest first. rejections: by motor.
-        co_design: None if not requested.
+        tasks: what each maneuver demands of the chosen drive.
+        ranking: the lightest devices, the chosen one first. rejections: of all other motors.
+        co_design: result of the co-design; None if not requested.
         prices: of the limits, before any co-design; empty in files of older versions.
         kept: reserve for sampled errors; None without maneuvers or in files of older versions.
     """
