@@ -155,7 +155,7 @@ def records(_which: str) -> str:
     parts = []
     for record, where in places.items():
         rows = [(f"`{key}`", meaning) for key, meaning in keys_and_meanings(record).items()]
-        parts.append(f"### {', '.join(where)}\n\n{table(('key', 'meaning'), rows)}")
+        parts.append(f"## {', '.join(where)}\n\n{table(('key', 'meaning'), rows)}")
     return "\n" + "\n".join(parts) + "\n"
 
 

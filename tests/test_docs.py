@@ -252,7 +252,7 @@ def test_every_key_of_a_design_has_its_meaning():
     text = (DOCS / "design.md").read_text()
     sections = {
         place: re.findall(r"^\| `(\w+)` \| \S", table, re.MULTILINE)
-        for heading, table in re.findall(r"^### (.+)\n((?:.*\n)+?)(?=###|<!--)", text, re.MULTILINE)
+        for heading, table in re.findall(r"^## (.+)\n((?:.*\n)+?)(?=##|<!--)", text, re.MULTILINE)
         for place in re.findall(r"`(.+?)`", heading)
     }
     # Their keys are names: of joints, metrics, criteria and the like.
