@@ -18,7 +18,7 @@ from ocs_design.actuation.motor import DIRECT, Motor
 from ocs_design.actuation.supply import Supply
 from ocs_design.catalogue.materials import material
 from ocs_design.catalogue.motors import motors
-from ocs_design.device.device import Device
+from ocs_design.device.device import Device, modules_at
 from ocs_design.parts.module import drive_moments
 from ocs_design.parts.solids import Carrier
 from ocs_design.requirement.maneuver import Maneuver
@@ -30,7 +30,6 @@ from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.simulate import simulate
 from ocs_design.simulation.verdict import Verdict, judge
 from ocs_design.simulation.world_builder import WorldBuilder
-from ocs_design.sizing.assembly import flywheel_of, modules_at
 from ocs_design.sizing.driven_wheel import DrivenWheel
 from ocs_design.sizing.free_place import place_on_top
 
@@ -73,7 +72,7 @@ def on_paper_wheel(robot: Robot, motor: Motor, voltage: float) -> Device:
     )
     modules = modules_at(place_on_top(robot)(OUTER_RADIUS, HEIGHT), INCIDENCE)
     carrier = Carrier.of(drive_moments(motor))
-    return Device(INCIDENCE, modules, flywheel_of(wheel), wheel.drive, carrier)
+    return Device(INCIDENCE, modules, wheel.flywheel, wheel.drive, carrier)
 
 
 def fly(

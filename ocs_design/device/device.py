@@ -46,6 +46,12 @@ class Module:
         return standing_frames(outward_sign(self.name) * self.axis)
 
 
+def modules_at(centers: FloatArray, incidence: float, layout: Layout = PAIR) -> tuple[Module, ...]:
+    """Modules with the centres of their wheels in B [m], shape (n, 3), at an incidence [rad]."""
+    placed = zip(layout.names, layout.axes(incidence).T, centers, strict=True)
+    return tuple(Module(name, axis, center) for name, axis, center in placed)
+
+
 def braked(
     robot: MassProperties,
     bodies: tuple[Carrier, ...],

@@ -6,9 +6,19 @@ from math import inf
 from typing import TypeAlias
 
 from ocs_design.actuation.fasteners import LIGAMENT
+from ocs_design.catalogue.materials import Material
 from ocs_design.common.errors import PartError
 from ocs_design.common.ranges import Length, LengthIfAny, NotNegative, Positive, Signed
-from ocs_design.parts.rim import CHAMFER_SHARE, NO_CUTS, HoleRing, Hub, RimCuts
+from ocs_design.parts.rim import (
+    CHAMFER_SHARE,
+    NO_CUTS,
+    HoleRing,
+    Hub,
+    RimCuts,
+    hoop_stress,
+    stored_energy,
+    wheel_body,
+)
 from ocs_design.parts.solids import Part, Prism, Revolution, revolved
 
 Point: TypeAlias = tuple[float, float]
@@ -151,6 +161,59 @@ class Flywheel:
     stored_energy: NotNegative
     web: Web | None = None
     cuts: RimCuts = NO_CUTS
+
+    @classmethod
+    def of(
+        cls,
+        cylinder: tuple[float, float, float],
+        material: Material,
+        wheel_speed: float,
+        rotor_share: float,
+        hub: Hub | None = None,
+        *,
+        cuts: RimCuts = NO_CUTS,
+        web_material: Material | None = None,
+    ) -> "Flywheel":
+        """Wheel from a rim's inner and outer radius and height [m], and a rotor's share [kg m^2].
+
+        Args:
+            wheel_speed: highest [rad/s].
+            web_material: of web and hub; None: of one piece with the rim.
+        """
+        inner, outer, height = cylinder
+        strength, stress, web = material.yield_strength, None, None
+        if material.poisson_ratio is not None:
+            stress = float(
+                hoop_stress(
+                    inner,
+                    outer,
+                    density=material.density,
+                    poisson_ratio=material.poisson_ratio,
+                    wheel_speed=wheel_speed,
+                )
+            )
+        of_web = material if web_material is None else web_material
+        if hub is not None:
+            mass = hub.mass_with_web(inner, of_web.density)
+            holes = hub.holes(inner)
+            web = Web(of_web.name, of_web.density, hub.web_thickness, mass, hub, holes)
+        body = wheel_body(*cylinder, material.density, hub, cuts=cuts, web_density=of_web.density)
+        spin_inertia = body.axial_inertia + rotor_share
+        return cls(
+            inner_radius=inner,
+            outer_radius=outer,
+            height=height,
+            material=material.name,
+            density=material.density,
+            mass=body.mass,
+            spin_inertia=spin_inertia,
+            transverse_inertia=body.transverse_inertia,
+            hoop_stress=stress,
+            stress_margin=None if strength is None or stress is None else strength / stress,
+            stored_energy=float(stored_energy(spin_inertia, wheel_speed)),
+            web=web,
+            cuts=cuts,
+        )
 
     @property
     def shape(self) -> Wheel:

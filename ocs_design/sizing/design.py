@@ -5,23 +5,25 @@ from dataclasses import replace
 
 import numpy as np
 
+from ocs_design.actuation.drive import Drive
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import Infeasible, UsageError
 from ocs_design.common.records import recorded
 from ocs_design.common.wording import some_of
 from ocs_design.device.answers import FrontDevice
-from ocs_design.device.device import braked
+from ocs_design.device.device import Device, modules_at
 from ocs_design.device.layout import PAIR, Criterion
 from ocs_design.device.records.selection import CoDesignRecord
+from ocs_design.parts.wheel import Flywheel
 from ocs_design.requirement.checks import contradictions
 from ocs_design.requirement.froude import standing_height
+from ocs_design.requirement.resolving import Resolved
 from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.sweep import Task
 from ocs_design.requirement.vocabulary import CONTAINING, LIGHTEST, MORE_PAIRS, PYRAMID
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.surface import trunk_surface
-from ocs_design.sizing.assembly import assemble, assemble_selected
-from ocs_design.sizing.bound.device_sizing import DeviceProblem, size_device
+from ocs_design.sizing.bound.device_sizing import DeviceProblem, DeviceSizing, size_device
 from ocs_design.sizing.footing.feet import FailedSearches
 from ocs_design.sizing.footing.standing import standing_on
 from ocs_design.sizing.free_place import specified_place
@@ -173,10 +175,32 @@ def _by_bound(task: Task) -> Designed:
         )
     )
     return Designed(
-        device=assemble(sizing, resolved),
+        device=_driven_as_assumed(sizing, resolved),
         sized=sized_by_bound(sizing, resolved.requirement.wheel_speed_max),
         criterion=BY_HAND if ocs.alpha is not None else str(criterion),
         choice=None,
+    )
+
+
+def _driven_as_assumed(sizing: DeviceSizing, resolved: Resolved) -> Device:
+    """Two modules at the sized places, each with the sized wheel and the assumed motor."""
+    rim, speed = sizing.rim, resolved.requirement.wheel_speed_max
+    cylinder = (rim.inner_radius, rim.outer_radius, rim.height)
+    flywheel = Flywheel.of(cylinder, resolved.material, speed, rotor_share=0.0)
+    return Device(
+        sizing.incidence,
+        modules_at(sizing.centers, sizing.incidence),
+        # Exactly the mass that was minimised.
+        replace(flywheel, mass=rim.mass),
+        Drive(
+            name="assumed",
+            mass=0.0,
+            stall_torque=None,
+            no_load_speed=speed,
+            torque_limit=resolved.torque_max,
+            rotor_inertia=0.0,
+            source="no motor is chosen; highest speed and torque as assumed or specified",
+        ),
     )
 
 
@@ -216,23 +240,17 @@ def _by_selection(
         # CasADi takes a third of a second to import.
         from ocs_design.sizing.trajectory.co_design import co_design  # noqa: PLC0415
 
-        co_design_result = co_design(problem, best)
-        if co_design_result.adopted:
+        result = co_design(problem, best)
+        if result.adopted:
             # The co-design counted the selected device's plate.
-            plated = search.with_plate(co_design_result.device, problem)
-            co_design_result = replace(co_design_result, device=plated, found_mass=plated.mass)
+            plated = search.with_plate(result.device, problem)
+            result = replace(result, device=plated, mass=plated.mass)
             if plated.mass >= best.mass:
-                note = (
+                remark = (
                     "the selected device is kept: a heavier plate outweighs the gain of the wheels"
                 )
-                co_design_result = replace(co_design_result, adopted=False, note=note, device=best)
-        chosen = co_design_result.device
-        figures = {
-            "mass": co_design_result.found_mass,
-            "violation": co_design_result.fine_violation,
-            "remark": co_design_result.note,
-        }
-        co_designed = recorded(CoDesignRecord, co_design_result, **figures)
+                result = replace(result, adopted=False, remark=remark, device=best)
+        chosen, co_designed = result.device, recorded(CoDesignRecord, result)
     name = LIGHTEST if criterion is None else str(criterion)
 
     def mass_with_reserve(changed_reserve: Reserve) -> float | None:
@@ -252,16 +270,13 @@ def _by_selection(
         return search.with_plate(nominal, problem).mass
 
     # A co-design makes the selected device smaller, and its plate with it.
-    device = assemble_selected(chosen)
-    footing = search.footing(device, problem)
+    device, footing = chosen.device, search.footing(chosen.device, problem)
     lacks_mount = footing is None and trunk_surface(robot) is not None
     device = device if footing is None else standing_on(device, footing)
-    carried, bodies = device.with_supports(robot.mass_properties), (chosen.wheel, chosen.carrier)
-    centers = np.stack([module.position for module in device.modules])
-    total = braked(carried, bodies, centers, device.incidence, device.layout)
+    sized = sized_selection(problem, chosen, robot.mass_properties)
     return Designed(
         device=device,
-        sized=replace(sized_selection(problem, chosen, robot.mass_properties), total=total),
+        sized=replace(sized, total=device.on(robot.mass_properties)),
         criterion=BY_HAND if specified else name,
         choice=DriveChoice(problem, selection, chosen, co_designed, lacks_mount),
         reserve=reserve,

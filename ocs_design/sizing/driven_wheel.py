@@ -8,8 +8,9 @@ from ocs_design.actuation.motor import Gear, Motor
 from ocs_design.actuation.supply import Supply
 from ocs_design.catalogue.materials import Material
 from ocs_design.parts.joints import OVERSPEED
-from ocs_design.parts.rim import NO_CUTS, Hub, RimCuts, hoop_stress, wheel_body
+from ocs_design.parts.rim import NO_CUTS, Hub, RimCuts, wheel_body
 from ocs_design.parts.solids import Carrier
+from ocs_design.parts.wheel import Flywheel
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -57,10 +58,18 @@ class DrivenWheel:
         """Inertia of the motor's rotor [kg m^2]; 0 where it is not stated."""
         return self.motor.rotor_inertia or 0.0
 
-    @property
-    def turned_inertia(self) -> float:
-        """Momentum per wheel speed, of the wheel as it is made and the rotor [kg m^2]."""
-        return self.wheel.axial_inertia + self.drive.rotor_inertia
+    @cached_property
+    def flywheel(self) -> Flywheel:
+        """The wheel as it is made, with the rotor's share, at the drive's top speed."""
+        return Flywheel.of(
+            (self.inner_radius, self.outer_radius, self.height),
+            self.material,
+            self.drive.top_speed,
+            self.drive.rotor_inertia,
+            self.hub,
+            cuts=self.cuts,
+            web_material=self.web_material,
+        )
 
     @property
     def torque_constant(self) -> float:
@@ -77,12 +86,5 @@ class DrivenWheel:
     @property
     def overspeed_stress(self) -> float | None:
         """Hoop stress at `OVERSPEED` times the top speed [Pa]; None: Poisson's ratio is unknown."""
-        if self.material.poisson_ratio is None:
-            return None
-        return hoop_stress(
-            self.inner_radius,
-            self.outer_radius,
-            density=self.material.density,
-            poisson_ratio=self.material.poisson_ratio,
-            wheel_speed=OVERSPEED * float(self.line.top_speed),
-        )
+        stress = self.flywheel.hoop_stress
+        return None if stress is None else OVERSPEED**2 * stress

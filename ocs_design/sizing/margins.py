@@ -233,7 +233,7 @@ def bearing_moment(motion: SampledMotion, axes: FloatArray, wheel: DrivenWheel) 
         across = motion.acceleration - np.outer(motion.acceleration @ axis, axis)
         transverse = wheel.wheel.transverse_inertia
         excess = (wheel.wheel.axial_inertia + wheel.rotor_inertia - transverse) * along
-        momentum = excess + wheel.turned_inertia * wheel_speed
+        momentum = excess + wheel.flywheel.spin_inertia * wheel_speed
         moment = transverse * across + momentum[:, None] * np.cross(motion.rate, axis)
         moments.append(np.linalg.norm(moment, axis=1))
     return np.column_stack(moments)
@@ -264,7 +264,7 @@ def margins(motion: SampledMotion, axes: FloatArray, wheel: DrivenWheel) -> tupl
         strength = wheel.material.yield_strength
         note = f"at {OVERSPEED:g} x the highest speed that the drive reaches"
         margins_found.append(Margin(HOOP_STRESS, stress, strength, "Pa", note=note))
-    driven_inertia = wheel.turned_inertia + wheel.drive.armature
+    driven_inertia = wheel.flywheel.spin_inertia + wheel.drive.armature
     energy = float((0.5 * driven_inertia * np.sum(motion.wheel_speed**2, axis=1)).max())
     # No data sheet in the catalogue gives the load rating or the spacing of the bearings.
     moment = float(bearing_moment(motion, axes, wheel).max())

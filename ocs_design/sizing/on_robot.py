@@ -14,7 +14,6 @@ from ocs_design.device.layout import Criterion
 from ocs_design.parts.cage import floor_at_shock
 from ocs_design.parts.foot import plate_thickness
 from ocs_design.robot.robot import Robot
-from ocs_design.sizing.assembly import assemble_selected
 from ocs_design.sizing.footing.feet import FailedSearches, Footing
 from ocs_design.sizing.footing.standing import footing_under
 from ocs_design.sizing.reserve import Reserve, SampledErrors
@@ -108,8 +107,7 @@ class OnRobot:
 
     def with_plate(self, candidate: Candidate, problem: SelectionProblem) -> Candidate:
         """A selected device with its plate or pedestals, where it needs any."""
-        device = assemble_selected(candidate)
-        footing = self.footing(device, problem) or Footing(problem.place, None)
+        footing = self.footing(candidate.device, problem) or Footing(problem.place, None)
         return replace(candidate, plate=footing.plate, pedestals=footing.pedestals)
 
     def with_plates(
@@ -249,13 +247,12 @@ class OnRobot:
 
     def _own_footing(self, problem: SelectionProblem, best: Candidate) -> SelectionProblem:
         """The problem for the plate, the place and the feet of this device."""
-        device = assemble_selected(best)
-        module = best.modules_mass / len(best.layout)
-        cage, feet = device.mount.cage, best.foot_plate
+        device = best.device
+        cage, feet = device.mount.cage, device.foot_plate
         floor = (
             0.0 if cage is None else floor_at_shock(cage, best.motor.mass or 0.0, best.wheel.mass)
         )
-        least_thickness = plate_thickness(device.foot, module, floor)
+        least_thickness = plate_thickness(device.foot, device.module_mass, floor)
         # Thicker feet are a little heavier, so a little excess is tolerated.
         if not least_thickness <= feet <= least_thickness + _TOO_THICK:
             feet = least_thickness
@@ -278,7 +275,7 @@ class OnRobot:
         """
 
         def ringed(best: Candidate, least: float) -> SelectionProblem:
-            burst = burst_of(assemble_selected(best))
+            burst = burst_of(best.device)
             with_own_rings = self._own_footing(problem, best)
             return replace(with_own_rings, guard_wall=max(least, burst.built_wall))
 
@@ -292,12 +289,12 @@ class OnRobot:
             best = selection.best
             drive = best.motor.name, best.gear.name
             # The rings of a drive only grow, so the last ones contain its wheels.
-            with_own_rings = ringed(best, best.guard_wall if drive in tried else 0.0)
+            with_own_rings = ringed(best, best.problem.guard_wall if drive in tried else 0.0)
             tried.add(drive)
             change = abs(with_own_rings.robot.mass - ringed_problem.robot.mass)
             walls = (
-                with_own_rings.guard_wall == best.guard_wall
-                and with_own_rings.foot_plate == best.foot_plate
+                with_own_rings.guard_wall == best.problem.guard_wall
+                and with_own_rings.foot_plate == best.problem.foot_plate
             )
             converged = with_own_rings.place == ringed_problem.place and walls
             if converged and change <= _CONVERGED * best.mass:

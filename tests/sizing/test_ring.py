@@ -87,8 +87,8 @@ def test_spin_inertia_includes_the_rotor():
 def test_no_ring_on_a_grid_is_lighter():
     chosen = design_for()[1].choice.chosen
     limits = chosen.limits
-    mount = mount_of(chosen.motor, None, chosen.foot_plate, on_bell=True)
-    shell = Printed(mount.holes.reach, foot_plate=chosen.foot_plate, room=mount.room)
+    mount = mount_of(chosen.motor, None, chosen.problem.foot_plate, on_bell=True)
+    shell = Printed(mount.holes.reach, foot_plate=chosen.problem.foot_plate, room=mount.room)
     inertia, inner = chosen.spin_inertia - chosen.drive.rotor_inertia, chosen.inner_radius
     outer = np.linspace(inner, float(limits.outer_radius_max), 4001)[1:]
     plain = inertia + limits.cuts.axial_inertia(inner, outer, limits.density)

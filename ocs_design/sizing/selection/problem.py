@@ -15,7 +15,7 @@ from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.catalogue.materials import Material
 from ocs_design.common.arrays import FloatArray, frozen
 from ocs_design.common.errors import UsageError
-from ocs_design.device.device import braked
+from ocs_design.device.device import Device, braked, modules_at
 from ocs_design.device.layout import PAIR, Layout
 from ocs_design.device.records.selection import TaskDemand
 from ocs_design.parts.carrier_plate import CarrierPlate
@@ -180,7 +180,7 @@ class Candidate(DrivenWheel):
         rim_mass: of one module [kg].
         overspeed: speed at which the hoop stress is limited [rad/s].
         limits: of its rim.
-        robot, place, guard_wall, foot_plate, layout, on_bell: see `SelectionProblem`.
+        problem: that it solves.
         demands: of all parts of the requirement; empty until computed.
         binding: active limits, as named in the specification; "housing" where a larger rim would be
             lighter, but its housing heavier.
@@ -195,18 +195,35 @@ class Candidate(DrivenWheel):
     rim_mass: float
     overspeed: float
     limits: RimLimits
-    robot: MassProperties
-    place: Place
+    problem: SelectionProblem
     demands: tuple[TaskDemand, ...] = ()
     binding: tuple[str, ...]
     residual: float
     iterations: int
     plate: CarrierPlate | None = None
-    guard_wall: float = 0.0
-    foot_plate: float = PLATE_THICKNESS
-    layout: Layout = PAIR
     pedestals: tuple[Pedestal, ...] = ()
-    on_bell: bool = False
+
+    @property
+    def layout(self) -> Layout:
+        """Layout of the modules' axes."""
+        return self.problem.layout
+
+    @cached_property
+    def device(self) -> Device:
+        """The modules as they were selected, on the trunk itself."""
+        problem = self.problem
+        return Device(
+            self.incidence,
+            modules_at(self.centers, self.incidence, problem.layout),
+            self.flywheel,
+            self.drive,
+            self.carrier,
+            layout=problem.layout,
+            supply=self.supply.explicit,
+            guard_wall=problem.guard_wall,
+            foot_plate=problem.foot_plate,
+            on_bell=problem.on_bell,
+        )
 
     @property
     def hub_share(self) -> float:
@@ -219,7 +236,8 @@ class Candidate(DrivenWheel):
     @property
     def mount(self) -> MotorMount:
         """Mount of the motor."""
-        return mount_of(self.motor, self.gear.room, self.foot_plate, on_bell=self.on_bell)
+        problem = self.problem
+        return mount_of(self.motor, self.gear.room, problem.foot_plate, on_bell=problem.on_bell)
 
     @cached_property
     def carrier(self) -> Carrier:
@@ -229,22 +247,22 @@ class Candidate(DrivenWheel):
             self.gear,
             self.outer_radius,
             self.height,
-            self.guard_wall,
-            foot_plate=self.foot_plate,
-            on_bell=self.on_bell,
+            self.problem.guard_wall,
+            foot_plate=self.problem.foot_plate,
+            on_bell=self.problem.on_bell,
         )
 
     @cached_property
     def centers(self) -> FloatArray:
         """Centres of the wheels in B [m], shape (n, 3)."""
         size = module_size(
-            self.outer_radius + self.guard_wall,
+            self.outer_radius + self.problem.guard_wall,
             max(self.height, self.mount.room),
             self.mount.behind(self.motor),
             self.mount.holes.reach,
-            foot_plate=self.foot_plate,
+            foot_plate=self.problem.foot_plate,
         )
-        return frozen(self.place.centers(size))
+        return frozen(self.problem.place.centers(size))
 
     def total_at(self, robot: MassProperties, incidence: float) -> MassProperties:
         """A robot and all modules at an incidence [rad], braked, in B."""
@@ -253,13 +271,14 @@ class Candidate(DrivenWheel):
     @cached_property
     def total(self) -> MassProperties:
         """The robot and all modules, braked, in B."""
-        return self.total_at(self.robot, self.incidence)
+        return self.total_at(self.problem.robot, self.incidence)
 
     @property
     def shell(self) -> Printed:
         """Housing and foot around a wheel of any size."""
-        reach, posts = self.mount.holes.reach, self.mount.posts
-        return Printed(reach, posts, self.guard_wall, self.foot_plate, self.mount.room)
+        mount, problem = self.mount, self.problem
+        reach, posts, room = mount.holes.reach, mount.posts, mount.room
+        return Printed(reach, posts, problem.guard_wall, problem.foot_plate, room)
 
     @property
     def mass(self) -> float:

@@ -303,15 +303,10 @@ def device_of(solved: Solved) -> Candidate:
         rim_mass=float(shape.rim_mass),
         overspeed=float(drives.overspeed[0]),
         limits=limits,
-        robot=problem.robot,
-        place=problem.place,
+        problem=problem,
         binding=binding_limits(shape, limits, problem.envelope),
         residual=float(solved.point.residual[0]),
         iterations=int(solved.point.iterations[0]),
-        guard_wall=problem.guard_wall,
-        foot_plate=problem.foot_plate,
-        layout=problem.layout,
-        on_bell=problem.on_bell,
     )
 
 

@@ -47,18 +47,18 @@ class CoDesign:
 
     Attributes:
         adopted: whether `device` is the co-design's; otherwise the selected device is kept.
-        note: one sentence on that.
+        remark: one sentence on that.
         device: the device to build.
-        found_mass: mass of the program's result, adopted or not [kg].
+        mass: mass of the program's result, adopted or not [kg].
         selected_mass: of the selection [kg].
         status: IPOPT's return status. iterations: number of iterations.
         flights: of all maneuvers, on the finer grid.
     """
 
     adopted: bool
-    note: str
+    remark: str
     device: Candidate
-    found_mass: float
+    mass: float
     selected_mass: float
     status: str
     iterations: int
@@ -67,10 +67,10 @@ class CoDesign:
     @property
     def gain(self) -> float:
         """Mass saved, relative to the selection's; negative where the result is heavier."""
-        return 1.0 - self.found_mass / self.selected_mass
+        return 1.0 - self.mass / self.selected_mass
 
     @property
-    def fine_violation(self) -> float:
+    def violation(self) -> float:
         """Largest relative violation of a drive's limit on the fine grid."""
         return max((flight.violation for flight in self.flights), default=0.0)
 
@@ -79,14 +79,14 @@ def co_design(problem: SelectionProblem, selected: Candidate) -> CoDesign:
     """The lightest device of the selected motor, gear and material that flies its maneuvers.
 
     It is never heavier than the selection: where IPOPT fails, finds nothing lighter, or the fine
-    grid does not confirm its result, the selected device is kept and the note says why.
+    grid does not confirm its result, the selected device is kept and the remark says why.
     """
     mass = float(selected.mass)
     rejected = CoDesign(
         adopted=False,
-        note="the selected device is kept: the spin inertia is specified",
+        remark="the selected device is kept: the spin inertia is specified",
         device=selected,
-        found_mass=mass,
+        mass=mass,
         selected_mass=mass,
         status="not tried",
         iterations=0,
@@ -96,12 +96,12 @@ def co_design(problem: SelectionProblem, selected: Candidate) -> CoDesign:
         return rejected
     if any(maneuver.on_pivot for maneuver in problem.requirement.maneuvers):
         return replace(
-            rejected, note="the selected device is kept: no co-design of a robot on a pivot"
+            rejected, remark="the selected device is kept: no co-design of a robot on a pivot"
         )
     device = FreeDevice.of(problem, selected)
     if device is None:
-        note = "the selected device is kept: the limits leave the wheels no choice"
-        return replace(rejected, note=note)
+        remark = "the selected device is kept: the limits leave the wheels no choice"
+        return replace(rejected, remark=remark)
     turns = list(device.turns())
     solution = solve(turns, _usable_line(problem, selected), PASSES, device.dimensions())
     result = device.at(*solution.dimensions.tolist())
@@ -123,8 +123,8 @@ def co_design(problem: SelectionProblem, selected: Candidate) -> CoDesign:
         failure = f"the co-design in 3-D found nothing lighter ({difference})"
     outcome = replace(
         rejected,
-        note=f"the selected device is kept: {failure}",
-        found_mass=result.mass,
+        remark=f"the selected device is kept: {failure}",
+        mass=result.mass,
         status=solution.status,
         iterations=solution.iterations,
         flights=tuple(flights),
@@ -148,7 +148,7 @@ def co_design(problem: SelectionProblem, selected: Candidate) -> CoDesign:
     return replace(
         outcome,
         adopted=True,
-        note=f"co-design in 3-D saves {outcome.gain:.2%} of the selection's mass",
+        remark=f"co-design in 3-D saves {outcome.gain:.2%} of the selection's mass",
         device=replace(
             result,
             demands=tuple(demands),
@@ -213,7 +213,8 @@ class FreeDevice:
         device = next(
             with_wheels(self.problem, self.selected, np.array([factor]), np.array([radius]))
         )
-        return replace(device, incidence=incidence, robot=self.problem.robot)
+        problem = replace(self.selected.problem, robot=self.problem.robot)
+        return replace(device, incidence=incidence, problem=problem)
 
     def plant(self, dimensions: ca.MX, own_incidence: float | None = None) -> Plant:
         """Symbolic robot and device, at their incidence or `own_incidence` [rad]."""

@@ -26,7 +26,9 @@ def spin_up(wheel, time_constants, samples=4001):
     """Full voltage from rest: W = w_0 (1 - e^(-t/T)), tau = tau_s e^(-t/T), T = I w_0 / tau_s."""
     line = wheel.line
     constant = (
-        (wheel.turned_inertia + wheel.drive.armature) * line.no_load_speed / line.stall_torque
+        (wheel.flywheel.spin_inertia + wheel.drive.armature)
+        * line.no_load_speed
+        / line.stall_torque
     )
     time = np.linspace(0.0, time_constants * constant, samples)
     decay = np.exp(-time / constant)
@@ -34,7 +36,7 @@ def spin_up(wheel, time_constants, samples=4001):
 
 
 def kinetic_energy(wheel, motion, index=-1):
-    inertia = wheel.turned_inertia + wheel.drive.armature
+    inertia = wheel.flywheel.spin_inertia + wheel.drive.armature
     return 0.5 * inertia * float(np.sum(motion.wheel_speed[index] ** 2))
 
 
@@ -64,7 +66,11 @@ def test_energy_balance_of_spinning_up_and_braking(gear):
     torque = 0.2 * wheel.line.torque_limit
     # Two samples at one time represent the step of the torque.
     time = np.array([0.0, 0.1, 0.1, 0.2])
-    speed = torque / (wheel.turned_inertia + wheel.drive.armature) * np.array([0.0, 0.1, 0.1, 0.0])
+    speed = (
+        torque
+        / (wheel.flywheel.spin_inertia + wheel.drive.armature)
+        * np.array([0.0, 0.1, 0.1, 0.0])
+    )
     motion = resting_trunk(time, speed, torque * np.array([1.0, 1.0, -1.0, -1.0]))
     used = consumption(motion, wheel)
     assert used.fed_back > 0.0
@@ -102,7 +108,7 @@ def test_energy_balance_of_a_tumbling_trunk(gear):
     body = Gyrostat(
         np.array([[0.03, 1e-3, 2e-3], [1e-3, 0.0535, 0.0], [2e-3, 0.0, 0.068]]),
         module_axes(np.radians(30.0)),
-        wheel.turned_inertia,
+        wheel.flywheel.spin_inertia,
         wheel.drive.armature,
     )
     line, voltage = wheel.line, np.array([1.0, -0.5])

@@ -6,7 +6,6 @@ from random_cases import random_case
 from subsets import slow_subset
 
 from ocs_design.simulation.scenario import Flights, run_scenarios
-from ocs_design.sizing.assembly import assemble_selected
 from ocs_design.sizing.selection.select import select
 from ocs_design.sizing.trajectory.plans import plan
 
@@ -18,7 +17,7 @@ def test_a_selected_device_passes_within_its_motors_limits(seed):
     case = random_case(seed)
     problem, requirement = case.problem, case.problem.requirement
     chosen = select(problem).best
-    device = assemble_selected(chosen)
+    device = chosen.device
     plans = plan(case.robot.mass_properties, device, requirement.maneuvers)
     runs = run_scenarios(
         Flights(

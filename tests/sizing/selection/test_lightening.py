@@ -9,7 +9,6 @@ from random_cases import random_case
 from ocs_design.common.errors import Infeasible
 from ocs_design.parts.solids import total
 from ocs_design.parts.wheel import wheel_parts
-from ocs_design.sizing.assembly import assemble_selected
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.select import select
 
@@ -26,7 +25,7 @@ def problem_of(seed: int) -> SelectionProblem:
 def test_the_selected_wheel_has_the_mass_of_its_parts(seed):
     problem = problem_of(seed)
     best = select(problem).best
-    wheel = assemble_selected(best).flywheel
+    wheel = best.flywheel
     assert best.hub is not None
     assert (wheel.web.holes is not None) == (best.hub.lightening == 6)
     parts = total(wheel_parts(wheel.shape))
