@@ -10,7 +10,7 @@ from ocs_design.catalogue.materials import material
 from ocs_design.common.errors import OcsError, SpecificationError
 from ocs_design.common.units import format_quantity
 from ocs_design.requirement.choices import highest_known_voltage, unknown_names
-from ocs_design.requirement.device_sections import LIMIT_OF_KEY, Envelope, FlywheelSection
+from ocs_design.requirement.device_sections import Envelope, FlywheelSection
 from ocs_design.requirement.requirement import Requirement
 from ocs_design.requirement.sections import TURNS, WORDS
 from ocs_design.requirement.specification import Specification
@@ -218,8 +218,7 @@ def robot_contradictions(
             f"ocs.position: y = {format_quantity(position[1], 'mm')} is not on the left side: "
             "the left wheel needs y > 0"
         )
-    limits = {key: getattr(envelope, limit) for key, limit in LIMIT_OF_KEY.items()}
-    yield from _contradictory_limits(specification.flywheel, limits)
+    yield from _contradictory_limits(specification.flywheel, envelope.by_key)
     only_maneuvers = requirement.rate_change is None and requirement.spin_inertia is None
     if only_maneuvers and not requirement.maneuvers:
         yield "requirement: nothing is required: add a maneuver, rate_change or spin_inertia"

@@ -186,6 +186,20 @@ class FlywheelSection:
     )
 
 
+LIMIT_OF_KEY: Mapping[str, str] = MappingProxyType(
+    {
+        "r_max": "outer_radius_max",
+        "r_min": "inner_radius_min",
+        "h_max": "height_max",
+        "h_min": "height_min",
+        "wall_min": "wall_min",
+        "wheel_mass_max": "mass_max",
+        "stress_safety": "stress_safety",
+    }
+)
+"""Field of `Envelope` that each key of `[flywheel]` sets."""
+
+
 @dataclass(frozen=True)
 class Envelope:
     """Limits of one flywheel rim, in SI.
@@ -206,19 +220,10 @@ class Envelope:
     mass_max: float
     stress_safety: float
 
-
-LIMIT_OF_KEY: Mapping[str, str] = MappingProxyType(
-    {
-        "r_max": "outer_radius_max",
-        "r_min": "inner_radius_min",
-        "h_max": "height_max",
-        "h_min": "height_min",
-        "wall_min": "wall_min",
-        "wheel_mass_max": "mass_max",
-        "stress_safety": "stress_safety",
-    }
-)
-"""Field of `Envelope` that each key of `[flywheel]` sets."""
+    @property
+    def by_key(self) -> Mapping[str, float]:
+        """Each limit by its key in `[flywheel]`."""
+        return {key: getattr(self, limit) for key, limit in LIMIT_OF_KEY.items()}
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -83,12 +83,11 @@ def default_specification(
         gravity: of the maneuvers on Earth [m/s^2].
     """
     envelope, supply = default_envelope(robot), default_supply(robot)
-    limits = {key: getattr(envelope, limit) for key, limit in LIMIT_OF_KEY.items()}
     return Specification(
         robot=RobotSection(posture=robot.posture_name),
         requirement=assumed_section(RequirementSection),
         ocs=assumed_section(OcsSection),
-        flywheel=assumed_section(FlywheelSection, **limits),
+        flywheel=assumed_section(FlywheelSection, **envelope.by_key),
         motor=assumed_section(MotorSection),
         supply=assumed_section(SupplySection, voltage=supply.voltage, power_max=supply.power_max),
         validation=assumed_section(ValidationSection, kp=kp, kd=kd),
@@ -273,7 +272,7 @@ def _assumptions(
         yield "Incidence: alpha* = atan(Ixx/Iyy) of robot and device (equal-rate)."
 
     lengths = [
-        f"{key} {to_unit(getattr(envelope, LIMIT_OF_KEY[key]), 'mm'):.3g}"
+        f"{key} {to_unit(envelope.by_key[key], 'mm'):.3g}"
         for key in ("r_max", "r_min", "h_max", "h_min", "wall_min")
         if getattr(flywheel, key) is None
     ]

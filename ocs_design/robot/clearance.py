@@ -17,7 +17,7 @@ from ocs_design.robot.collision import (
     Posture,
 )
 from ocs_design.robot.leg_geometry import leg_geometries
-from ocs_design.robot.probe import Probe
+from ocs_design.robot.probe import Probe, Reach
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.stance import LANDING_TOLERANCE
 from ocs_design.robot.tree import JointKind
@@ -219,20 +219,6 @@ _STEPS = 32
 
 _STILL = 0.02
 """Travel of a joint, over the largest of any joint, below which it is left at rest."""
-
-
-@dataclass(frozen=True)
-class Reach:
-    """Shortest movement by which a limb hits a solid.
-
-    Attributes:
-        part: name of the body that hits it first.
-        joints: values at the contact [rad or m], on a straight path from the nominal posture; one
-            joint if one is enough.
-    """
-
-    part: str
-    joints: Posture
 
 
 def reaches(collision: CollisionModel, solids: Sequence[Probe]) -> tuple[Reach, ...]:

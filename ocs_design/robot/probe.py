@@ -1,8 +1,9 @@
-"""Solids on a trunk, for measuring distances from the robot's links.
+"""Solids on a trunk, for measuring distances from the robot's links, and how a limb hits them.
 
 Devices describe themselves by these without MuJoCo, which measures the distances (`collision.py`).
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TypeAlias
 
@@ -52,3 +53,17 @@ class Drum:
 
 Probe: TypeAlias = Ball | Drum
 """Solid on the trunk."""
+
+
+@dataclass(frozen=True)
+class Reach:
+    """Shortest movement by which a limb hits a solid.
+
+    Attributes:
+        part: name of the body that hits it first.
+        joints: values at the contact [rad or m], on a straight path from the nominal posture; one
+            joint if one is enough.
+    """
+
+    part: str
+    joints: Mapping[str, float]

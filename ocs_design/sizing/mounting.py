@@ -32,10 +32,10 @@ from ocs_design.parts.module import part_name
 from ocs_design.parts.pedestal import Pedestal, pedestal_use
 from ocs_design.requirement.device_sections import Envelope
 from ocs_design.requirement.maneuver import Maneuver
-from ocs_design.robot.clearance import Reach, nearest_in_landings, reaches
+from ocs_design.robot.clearance import nearest_in_landings, reaches
 from ocs_design.robot.collision import CollisionModel, Nearest, collision_model
 from ocs_design.robot.mass import MassProperties
-from ocs_design.robot.probe import Drum
+from ocs_design.robot.probe import Drum, Reach
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.surface import HeightMap, trunk_back, trunk_surface
 from ocs_design.sizing.footing.contact import (

@@ -16,7 +16,7 @@ from ocs_design.common.units import format_quantity
 from ocs_design.device.checks import device_warnings
 from ocs_design.device.layout import heading_drift
 from ocs_design.device.records.design import SCHEMA_VERSION, OcsDesign, Tool
-from ocs_design.device.records.device import ModuleRecord, MountingRecord, OcsRecord, ReachRecord
+from ocs_design.device.records.device import ModuleRecord, MountingRecord, OcsRecord
 from ocs_design.device.records.flights import Buildable, Margin, SurvivalRecord, ValidationRecord
 from ocs_design.device.records.requirement import (
     AxisInertia,
@@ -180,7 +180,6 @@ def record_design(
             else recorded(
                 MountingRecord,
                 mounting,
-                reachable=tuple(recorded(ReachRecord, reach) for reach in mounting.reachable),
                 com_shift=vector(mounting.com_shift),
                 inertia_change=vector(mounting.inertia_change),
             ),

@@ -11,6 +11,7 @@ from ocs_design.parts.pedestal import Pedestal
 from ocs_design.parts.printed import PLATE_THICKNESS
 from ocs_design.parts.solids import NO_CARRIER, Carrier
 from ocs_design.parts.wheel import Flywheel
+from ocs_design.robot.probe import Reach
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,18 +43,6 @@ class Clearance:
 
 
 @dataclass(frozen=True, kw_only=True)
-class ReachRecord:
-    """A limb that could hit the device (`robot.clearance.Reach`).
-
-    Attributes:
-        part: name of the body that hits it first. joints: values at the contact [rad or m].
-    """
-
-    part: str
-    joints: Mapping[str, float]
-
-
-@dataclass(frozen=True, kw_only=True)
 class MountingRecord:
     """How the device sits on its robot (`sizing.mounting.DeviceMounting`).
 
@@ -67,7 +56,7 @@ class MountingRecord:
     """
 
     landing: Clearance | None
-    reachable: tuple[ReachRecord, ...]
+    reachable: tuple[Reach, ...]
     com_shift: Vector
     inertia_change: Vector
 

@@ -19,6 +19,7 @@ from ocs_design.catalogue.materials import Material
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import Constraint, Infeasible, UsageError
 from ocs_design.common.units import round_outwards
+from ocs_design.common.wording import listed
 from ocs_design.device.device import braked
 from ocs_design.device.layout import Criterion, incidence_by_criterion
 from ocs_design.parts.rim import cylinder_spin_inertia, cylinder_transverse_inertia
@@ -370,8 +371,7 @@ def largest_spin_inertia(problem: RimProblem) -> float:
 def _shortfall(problem: RimProblem, binding: Sequence[Limit], largest: float) -> str:
     """Clause on what is required, which limits conflict with it and how much is possible."""
     asked = f"{problem.spin_inertia:.5g} kg m^2"
-    texts = [limit.text(limit.value(problem.envelope)) for limit in binding]
-    room = " and ".join(filter(None, [", ".join(texts[:-1]), *texts[-1:]]))
+    room = listed([limit.text(limit.value(problem.envelope)) for limit in binding])
     if largest == 0.0:
         return f"no rim at all fits within {room}, whatever its spin inertia"
     if largest > problem.spin_inertia:
