@@ -1,5 +1,6 @@
 """The designed orientation control system, as frozen values."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -50,6 +51,14 @@ def modules_at(centers: FloatArray, incidence: float, layout: Layout = PAIR) -> 
     """Modules with the centres of their wheels in B [m], shape (n, 3), at an incidence [rad]."""
     placed = zip(layout.names, layout.axes(incidence).T, centers, strict=True)
     return tuple(Module(name, axis, center) for name, axis, center in placed)
+
+
+def with_supports(
+    robot: MassProperties, supports: Sequence[CarrierPlate | Pedestal]
+) -> MassProperties:
+    """Mass properties of a robot with plate or pedestals on it, in B."""
+    bodies = [support.mass_properties() for support in supports]
+    return combine([robot, *bodies]) if bodies else robot
 
 
 def braked(
@@ -168,11 +177,6 @@ class Device:
         """Parts between the feet and the trunk: plate and pedestals."""
         return (*(() if self.plate is None else (self.plate,)), *self.pedestals)
 
-    def with_supports(self, robot: MassProperties) -> MassProperties:
-        """Mass properties of a robot with plate or pedestals on it, in B."""
-        supports = [support.mass_properties() for support in self.supports]
-        return combine([robot, *supports]) if supports else robot
-
     def on(self, robot: MassProperties, *, free: bool = False) -> MassProperties:
         """A robot with this device as one rigid body in B, wheels braked.
 
@@ -188,7 +192,9 @@ class Device:
         axial = (0.0 if free else wheel.spin_inertia) - self.motor.rotor_inertia
         bodies = Carrier(wheel.mass, axial, wheel.transverse_inertia), self.carrier
         centers = np.stack([module.position for module in self.modules])
-        return braked(self.with_supports(robot), bodies, centers, self.incidence, self.layout)
+        return braked(
+            with_supports(robot, self.supports), bodies, centers, self.incidence, self.layout
+        )
 
     @property
     def axes(self) -> FloatArray:

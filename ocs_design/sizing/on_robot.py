@@ -108,7 +108,7 @@ class OnRobot:
     def with_plate(self, candidate: Candidate, problem: SelectionProblem) -> Candidate:
         """A selected device with its plate or pedestals, where it needs any."""
         footing = self.footing(candidate.device, problem) or Footing(problem.place, None)
-        return replace(candidate, plate=footing.plate, pedestals=footing.pedestals)
+        return replace(candidate, plate_mass=sum(support.mass for support in footing.supports))
 
     def with_plates(
         self, selection: Selection, problem: SelectionProblem, *, ranked: bool = True

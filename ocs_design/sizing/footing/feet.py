@@ -10,13 +10,13 @@ import numpy as np
 
 from ocs_design.actuation.tilt_inertia import OUT_OF_REACH
 from ocs_design.common.arrays import FloatArray
-from ocs_design.device.device import Device, Module
+from ocs_design.device.device import Device, Module, with_supports
 from ocs_design.device.layout import Layout
 from ocs_design.parts.carrier_plate import CarrierPlate, Point
 from ocs_design.parts.dog_bone import directions
 from ocs_design.parts.pedestal import Pedestal
 from ocs_design.parts.printed import AROUND_SLOT
-from ocs_design.robot.mass import MassProperties, combine
+from ocs_design.robot.mass import MassProperties
 from ocs_design.robot.robot import Robot
 from ocs_design.sizing.place import SPACING, Place, Size, module_size, wheel_size
 
@@ -126,10 +126,14 @@ class Footing:
     plate: CarrierPlate | None
     pedestals: tuple[Pedestal, ...] = ()
 
+    @property
+    def supports(self) -> tuple[CarrierPlate | Pedestal, ...]:
+        """Parts between the feet and the trunk."""
+        return (*(() if self.plate is None else (self.plate,)), *self.pedestals)
+
     def added_to(self, robot: MassProperties) -> MassProperties:
         """The robot with plate and pedestals, later replaced by the chosen device's own."""
-        under = [*(() if self.plate is None else (self.plate,)), *self.pedestals]
-        return combine([robot, *(body.mass_properties() for body in under)]) if under else robot
+        return with_supports(robot, self.supports)
 
 
 def device_size(device: Device) -> Size[float]:

@@ -18,10 +18,8 @@ from ocs_design.common.errors import UsageError
 from ocs_design.device.device import Device, braked, modules_at
 from ocs_design.device.layout import PAIR, Layout
 from ocs_design.device.records.selection import TaskDemand
-from ocs_design.parts.carrier_plate import CarrierPlate
 from ocs_design.parts.module import Printed, carrier_of
 from ocs_design.parts.motor_mount import MotorMount, hub_of, mount_of
-from ocs_design.parts.pedestal import Pedestal
 from ocs_design.parts.printed import PLATE_THICKNESS
 from ocs_design.parts.rim import NO_CUTS, SHRUNK_WEB_THICKNESS, WEB_THICKNESS, Hub, RimCuts
 from ocs_design.parts.solids import Carrier
@@ -186,8 +184,7 @@ class Candidate(DrivenWheel):
             lighter, but its housing heavier.
         residual: relative change of the spin inertia in one more iteration of the fixed point.
         iterations: number of iterations.
-        plate: that it stands on; None: the trunk itself, or not determined yet.
-        pedestals: under tilted feet; empty: none, or not determined yet.
+        plate_mass: of plate or pedestals under its feet [kg]; 0: none, or not determined yet.
     """
 
     incidence: float
@@ -200,8 +197,7 @@ class Candidate(DrivenWheel):
     binding: tuple[str, ...]
     residual: float
     iterations: int
-    plate: CarrierPlate | None = None
-    pedestals: tuple[Pedestal, ...] = ()
+    plate_mass: float = 0.0
 
     @property
     def layout(self) -> Layout:
@@ -289,12 +285,6 @@ class Candidate(DrivenWheel):
     def modules_mass(self) -> float:
         """Mass of all modules: wheels, motors, gears, housings and feet [kg]."""
         return len(self.layout) * (self.wheel_mass + self.carrier.mass)
-
-    @property
-    def plate_mass(self) -> float:
-        """Mass of plate and pedestals; 0 without any [kg]."""
-        plate = 0.0 if self.plate is None else self.plate.mass
-        return plate + sum(pedestal.mass for pedestal in self.pedestals)
 
     @property
     def printed_mass(self) -> float:
