@@ -74,8 +74,8 @@ def drive_notes(device: Device) -> tuple[str, ...]:
         return (note, *_overlap_notes(device, foot), *_landing_notes(device, foot))
     mounting, known = motor.mounting or Mounting(), motors().get(motor.name)
     remark = () if known is None or not known.remark else (f"about the motor: {known.remark}",)
-    held = *_mounting_notes(mounting, device), *_shaft_notes(mounting, device)
-    return (*remark, *held, *_overlap_notes(device, foot), *_landing_notes(device, foot))
+    notes = *_mounting_notes(mounting, device), *_shaft_notes(mounting, device)
+    return (*remark, *notes, *_overlap_notes(device, foot), *_landing_notes(device, foot))
 
 
 def _mounting_notes(mounting: Mounting, device: Device) -> Iterator[str]:
@@ -85,8 +85,8 @@ def _mounting_notes(mounting: Mounting, device: Device) -> Iterator[str]:
         bare = mount.holes.pilot_radius == 0.0
         hole = format_quantity(2.0 * mount.holes.pilot_radius, "mm")
         there = "" if bare else f", besides the hole of {hole} for the rotating parts"
-        which = "the motor's threads" if mounting.rotor is None else "the threads of its stator"
-        yield f"{which} are not in the catalogue: {_DRILL_FOR_IT}{there}"
+        threads = "the motor's threads" if mounting.rotor is None else "the threads of its stator"
+        yield f"{threads} are not in the catalogue: {_DRILL_FOR_IT}{there}"
     elif mount.holes.screws is None and mounting.stator_face is Face.BACK:
         yield (
             f"the motor's threads, {stator}, are at its back, and its size is not known or its "

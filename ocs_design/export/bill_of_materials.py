@@ -180,8 +180,8 @@ def _support_rows(device: Device) -> Iterator[BillRow]:
                 yield BillRow("block of the mast", 1, material, size, mass, remark, piece=BLOCK)
             remark = f"cut to {_mm(mast.bore)}, in the upright around each screw"
             mass, what = sleeve_part(plate, mast.bore).mass(), "sleeve in the mast"
-            held = len(plate.trunk)
-            yield BillRow(what, held, material, tube, mass, remark, piece="sleeves")
+            sleeves = len(plate.trunk)
+            yield BillRow(what, sleeves, material, tube, mass, remark, piece="sleeves")
         for length in sorted({length for length in plate.sleeves if length > 0.0}):
             shims = ", or shim washers" if length < SHIM else ""
             remark = f"cut to {_mm(length)}{shims}, between {support} and trunk"

@@ -103,9 +103,10 @@ class PedestalKind:
 def pedestal_kinds(device: Device) -> tuple[PedestalKind, ...]:
     """Pedestals grouped by shape."""
     kinds: dict[tuple[float, ...], tuple[Pedestal, ...]] = {}
-    for one in device.pedestals:
-        shape = tuple(np.round([one.lean, one.middle, one.thickness, one.base], 9).tolist())
-        kinds[shape] = (*kinds.get(shape, ()), one)
+    for pedestal in device.pedestals:
+        figures = [pedestal.lean, pedestal.middle, pedestal.thickness, pedestal.base]
+        shape = tuple(np.round(figures, 9).tolist())
+        kinds[shape] = (*kinds.get(shape, ()), pedestal)
     if len(kinds) == 1:
         return (PedestalKind("pedestal", device.pedestals),)
     return tuple(PedestalKind(f"pedestal_{kind[0].module}", kind) for kind in kinds.values())

@@ -128,11 +128,11 @@ def wiring(device: Device, margins: Sequence[Margin]) -> Iterator[str]:
         limits.append(f"{significant(supply.power_max, 4)} W")
     if limits:
         bus = _bus_current(margins)
-        taken = "" if bus is None else f"; its maneuvers take up to {_ceil(bus)} A of it"
+        drawn = "" if bus is None else f"; its maneuvers take up to {_ceil(bus)} A of it"
         least = "what a maneuver takes" if bus is None else f"{_ceil(bus)} A"
         yield (
             f"The design keeps all motors together within a supply of {' and '.join(limits)}, "
-            f"drawn or fed back{taken}. Where a controller limits its own bus current, set that "
+            f"drawn or fed back{drawn}. Where a controller limits its own bus current, set that "
             f"limit to no less than {least}, or the wheels brake too late."
         )
     yield (

@@ -46,7 +46,7 @@ def write(subject: Subject, folder: Path) -> Notes:
     declared = '<?xml version="1.0" encoding="utf-8"?>\n'
     described = declared + ET.tostring(urdf, encoding="unicode") + "\n"
     # A robot may already use ros2_control, where a joint in two systems is an error.
-    taken = {joint.get("name") for joint in urdf.findall(".//ros2_control//joint")}
+    driven = {joint.get("name") for joint in urdf.findall(".//ros2_control//joint")}
     children = {child.get("link") for child in urdf.findall("joint/child")}
     links = (link.get("name", "") for link in urdf.findall("link"))
     values = {
@@ -63,7 +63,7 @@ def write(subject: Subject, folder: Path) -> Notes:
     }
     controls = []
     for name, joint in robot.tree.joints.items():
-        if name not in taken:
+        if name not in driven:
             limits = {"min": joint.lower, "max": joint.upper}
             bounds = {end: float(limit) for end, limit in limits.items() if np.isfinite(limit)}
             # A mimic joint takes no commands.

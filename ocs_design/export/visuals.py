@@ -83,7 +83,9 @@ def still_meshes(device: Device) -> Mapping[Path, Mesh]:
         meshes |= _carrier_meshes(device.foot, device.mount.cage)
     under = {
         "plate": () if device.plate is None else plate_bodies(device.plate),
-        "pedestal": ((pedestal_part(one), one.placement) for one in device.pedestals),
+        "pedestal": (
+            (pedestal_part(pedestal), pedestal.placement) for pedestal in device.pedestals
+        ),
     }
     for name, bodies in under.items():
         if placed := [part_mesh(part, _SECTIONS).placed(at) for part, at in bodies]:
@@ -113,7 +115,7 @@ def still_visuals(device: Device, module: Module | None) -> tuple[Visual, ...]:
     """
     if module is None:
         under = {"plate": device.plate, "pedestal": device.pedestals}
-        return tuple(_mesh(name, ORIGIN) for name, there in under.items() if there)
+        return tuple(_mesh(name, ORIGIN) for name, supports in under.items() if supports)
     if device.wheels_alone:
         return ()
     foot, turn, cage = device.foot, carrier_placement(module), device.mount.cage

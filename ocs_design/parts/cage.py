@@ -208,8 +208,8 @@ def heads_at_shock(cage: Cage, motor: float, wheel: float) -> float:
 
     They press on the housing's floor, and hold motor, wheel (masses in kg) and cage on the foot.
     """
-    held = motor + wheel + float(cage_part(cage).mass())
-    return EAR_COUNT * PETG.strength * LID_SCREW.head_area / held
+    mass = motor + wheel + float(cage_part(cage).mass())
+    return EAR_COUNT * PETG.strength * LID_SCREW.head_area / mass
 
 
 def _posts(cage: Cage, low: float, high: float) -> tuple[Prism[float], Prism[float]]:

@@ -118,11 +118,11 @@ def moments_at_floor(motor: AnyMotor, gear: Gear, mount: MotorMount) -> MassMome
     Screws and gear, minus the mount's holes through floor and plate, and a motor behind the plate.
     They are the same for any wheel.
     """
-    held = gear_moments(gear, mount.foot_plate) + mount.moments_at_floor()
+    fixed = gear_moments(gear, mount.foot_plate) + mount.moments_at_floor()
     if mount.cage is not None:
-        return held
+        return fixed
     middle = mount.foot_plate + mount.gap + (motor.length or 0.0) / 2.0
-    return held + drive_moments(motor).shifted(-middle, mount.up)
+    return fixed + drive_moments(motor).shifted(-middle, mount.up)
 
 
 def moments_at_wheel(motor: AnyMotor, mount: MotorMount) -> MassMoments[float]:
@@ -150,9 +150,9 @@ def carrier_of(
     """All stationary parts around a wheel of this outer radius and height [m]."""
     mount = mount_of(motor, gear.room, foot_plate, on_bell=on_bell)
     height = max(height, mount.room)
-    held = moments_at_floor(motor, gear, mount).shifted(
+    fixed = moments_at_floor(motor, gear, mount).shifted(
         -half_height(height), 0.0
     ) + moments_at_wheel(motor, mount)
     shell = Printed(mount.holes.reach, NO_POSTS, guard_wall, foot_plate)
     around = shell.moments(outer_radius, height)
-    return Carrier.of(held + mount.posts.moments(height) + around)
+    return Carrier.of(fixed + mount.posts.moments(height) + around)

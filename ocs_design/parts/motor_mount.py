@@ -223,7 +223,7 @@ def mount_of(
         fastening = _fastening(rotor, BOLTED_HUB_HEIGHT, BoltedJoint.WHEEL, depth, deepest=True)
         wheel = (Screwed(fastening, rotor, BOLTED_HUB_HEIGHT / 2.0, -1.0, from_wheel=True),)
     if stator is not None and mounting.stator_face is Face.OUTPUT:
-        held = _through_walls(stator, foot_plate, BoltedJoint.MOTOR, 1.0)
+        motor_screws = _through_walls(stator, foot_plate, BoltedJoint.MOTOR, 1.0)
         holes, through = screwed_by_face(mounting, stator), inf
         if rotor is None and mounting.shaft_length is not None:
             beside = foot_plate + half_height(0.0) + hub_height(mounting) / 2.0
@@ -231,7 +231,7 @@ def mount_of(
         return MotorMount(
             holes,
             None,
-            (*wheel, held),
+            (*wheel, motor_screws),
             foot_plate=foot_plate,
             # A shaft too short behind any rim is reported as a fault of its joint.
             shaft_rim=through if through >= RIM_HEIGHT_MIN else inf,
@@ -249,8 +249,8 @@ def mount_of(
     assert passage.screws is not None
     on_plate = _through_walls(passage.screws, foot_plate, BoltedJoint.CAGE, IN_PLASTIC)
     fastening = _fastening(stator, cage.floor, BoltedJoint.MOTOR_IN_CAGE, 1.0)
-    held = Screwed(fastening, stator, -cage.back, 1.0, from_wheel=True)
-    return MotorMount(passage, cage, (*wheel, held, on_plate), foot_plate=foot_plate)
+    motor_screws = Screwed(fastening, stator, -cage.back, 1.0, from_wheel=True)
+    return MotorMount(passage, cage, (*wheel, motor_screws, on_plate), foot_plate=foot_plate)
 
 
 def is_held(motor: AnyMotor, room: GearRoom | None) -> bool:

@@ -192,8 +192,8 @@ class Pedestal:
 
     def _bodies(self) -> tuple[MassProperties, ...]:
         held, seated, none = self.base_screws, self.seat_screws, np.zeros((3, 3))
-        one, head = held.mass / held.count, self.base - held.centre
-        screws = (MassProperties(one, np.array([x, y, head]), none) for x, y in self.holes)
+        screw_mass, head = held.mass / held.count, self.base - held.centre
+        screws = (MassProperties(screw_mass, np.array([x, y, head]), none) for x, y in self.holes)
         seat = self.seat.position + (self.foot_base - seated.centre) * self._directions[1]
         # A foot's own screws, the same for any plate of that base, are counted with its module.
         longer = MassProperties(seated.mass - replace(seated, depth=1.0).mass, seat, none)

@@ -309,10 +309,10 @@ def _judge_mirror_images(tree: Tree, trunk: str, legs: Sequence[Leg], warnings: 
     sides = [(leg, [parts[i] for i in path]) for leg, path in zip(legs, paths, strict=True)]
     left = [side for side in sides if _hip(side)[1] > 0.0]
     right = [side for side in sides if _hip(side)[1] < 0.0]
-    for one in left if len(left) == len(right) else ():
+    for limb in left if len(left) == len(right) else ():
         # The leg whose hip is nearest to the mirror image's.
-        other = min(right, key=lambda side: _shift(_hip(side), _hip(one)))
-        (leg, bodies), (twin, twins) = one, other
+        other = min(right, key=lambda side: _shift(_hip(side), _hip(limb)))
+        (leg, bodies), (twin, twins) = limb, other
         if len(bodies) != len(twins):
             names = f"{leg.name}, {twin.name}"
             warnings.add("legs left and right differ in their number of joints", names)

@@ -166,8 +166,8 @@ class GeomPoses:
 
     def __getitem__(self, index: int) -> "GeomPoses":
         """The posture at this index alone."""
-        one = slice(index, index + 1)
-        return GeomPoses(self.postures[one], self.positions[one], self.axes[one])
+        row = slice(index, index + 1)
+        return GeomPoses(self.postures[row], self.positions[row], self.axes[row])
 
 
 @dataclass(frozen=True, eq=False)

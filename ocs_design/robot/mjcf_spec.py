@@ -188,10 +188,10 @@ def parse_mjcf(
 
 def _name(elements: Sequence["mujoco.MjsBody | mujoco.MjsJoint"], kind: str) -> None:
     """Name elements without a name, so that a tree and a model from the same file agree."""
-    taken = {element.name for element in elements}
+    names = {element.name for element in elements}
     for number, element in enumerate(elements):
         if not element.name:
-            element.name = unused_name(f"{kind}{number}", "", taken)
+            element.name = unused_name(f"{kind}{number}", "", names)
 
 
 def compiled(spec: mujoco.MjSpec) -> mujoco.MjModel:

@@ -290,12 +290,12 @@ _HEADER_WORDS = {"WHEELS", "PERIOD", "MANEUVERS", "CONTROLLER_H"}
 def _identifiers(maneuvers: Iterable[str]) -> list[str]:
     """Constant in C of each maneuver: its name, with its index where that alone is not distinct."""
     plain = [re.sub(r"[^A-Z0-9]+", "_", name.upper()).strip("_") for name in maneuvers]
-    taken, identifiers = {*plain, *_HEADER_WORDS}, []
+    reserved, identifiers = {*plain, *_HEADER_WORDS}, []
     for index, name in enumerate(plain):
         word = name
         if not name or plain.count(name) > 1 or name in _HEADER_WORDS:
             word = f"{name or 'MANEUVER'}_{index}"
-            while word in taken:
+            while word in reserved:
                 word += "X"
         identifiers.append(f"OCS_{word}")
     return identifiers

@@ -194,6 +194,6 @@ class MotorLimits(Table):
             speed, torque: of the wheels [rad/s, N m], shape (n, wheels).
         """
         shaft = torque * speed
-        taken = np.maximum(shaft / self.efficiency, shaft * self.efficiency)
-        power: FloatArray = (self.copper * torque**2 + taken).sum(axis=-1)
+        shaft_power = np.maximum(shaft / self.efficiency, shaft * self.efficiency)
+        power: FloatArray = (self.copper * torque**2 + shaft_power).sum(axis=-1)
         return power

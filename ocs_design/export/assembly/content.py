@@ -125,10 +125,10 @@ def slipping(device: Device) -> tuple[Slipping, ...]:
         if fastening.joint is BoltedJoint.WHEEL:
             continue
         least = tightened(fastening).preload / TIGHTENING_FACTOR
-        held = FRICTION * fastening.count * least * radius
-        if held < (device.motor.torque_limit or 0.0):
+        friction_torque = FRICTION * fastening.count * least * radius
+        if friction_torque < (device.motor.torque_limit or 0.0):
             play = fastening.screw.clearance_hole - fastening.screw.diameter
-            slipping_screws.append(Slipping(fastening, held, play / radius))
+            slipping_screws.append(Slipping(fastening, friction_torque, play / radius))
     return tuple(slipping_screws)
 
 

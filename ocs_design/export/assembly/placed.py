@@ -182,12 +182,12 @@ def _ring(
     The first is at the angle `first` from the x axis [rad]; with `towards` 1 their tips point
     outward, with -1 to the motor.
     """
-    one, flip = _screw(fastening), np.diag([1.0, -towards, -towards])
+    screw_mesh, flip = _screw(fastening), np.diag([1.0, -towards, -towards])
     meshes = []
     for index in range(fastening.count):
         angle = first + 2.0 * pi * index / fastening.count
         place = np.array([radius * cos(angle), radius * sin(angle), along])
-        meshes.append(one.placed(Placement(flip, place)))
+        meshes.append(screw_mesh.placed(Placement(flip, place)))
     return Piece(fastening, merged(meshes))
 
 
@@ -208,10 +208,12 @@ def _foot_screws(device: Device) -> Iterator[Piece]:
             off = foot.slot_radius * sin(pi / 4.0)
             places, place = [(off, off), (-off, -off)], foot.placement
             under = 0.0
-        one, level = _screw(fastening), under + fastening.thickness
-        screws = merged([one.moved(np.array([x, y, level])) for x, y in places]).placed(place)
+        screw_mesh, level = _screw(fastening), under + fastening.thickness
+        screws = [screw_mesh.moved(np.array([x, y, level])) for x, y in places]
         apart = -_APART * foot.housing.radius
-        yield Piece(fastening, screws, drop=apart, modules=feet.count(fastening))
+        yield Piece(
+            fastening, merged(screws).placed(place), drop=apart, modules=feet.count(fastening)
+        )
 
 
 def _pieces_below(device: Device) -> Iterator[Piece]:
@@ -238,9 +240,11 @@ def _pieces_below(device: Device) -> Iterator[Piece]:
             count = len(plate.rows) if name == "plate" else 1
             yield Piece(name, merged(meshes), drop=lowest, shared=True, count=count)
     for kind in pedestal_kinds(device):
-        one, fastening = kind.alike[0], kind.screws
-        place = foot.placement @ one.seat.inverse()
-        flange = merged([_screw(fastening).moved(np.array([x, y, one.base])) for x, y in one.holes])
+        pedestal, fastening = kind.alike[0], kind.screws
+        place = foot.placement @ pedestal.seat.inverse()
+        flange = merged(
+            [_screw(fastening).moved(np.array([x, y, pedestal.base])) for x, y in pedestal.holes]
+        )
         screws, mesh = (mesh.placed(place) for mesh in (flange, part_mesh(kind.part, SECTIONS)))
         along = np.concatenate([screws.vertices[:, 2], mesh.vertices[:, 2]])
         aside = min(0.0, free_from - apart - float(along.max()))

@@ -598,13 +598,13 @@ def _pedestal_steps(assembly: Assembly) -> Iterator[str]:
     """Steps to mount the pedestals on the trunk, and the leaning feet on them."""
     kinds = pedestal_kinds(assembly.device)
     for kind in kinds:
-        name, one = kind.name, kind.alike[0]
+        name, pedestal = kind.name, kind.alike[0]
         headings = ((format_quantity(at.heading, "deg", digits=3), at.module) for at in kind.alike)
         turned = ", ".join(f"{heading} ({module})" for heading, module in headings)
         yield (
             f"Print {len(kind.alike)} x {name}{assembly.number(name)} (cad/{name}.stl) in PETG on "
             "its side at 100 % infill, as its strength assumes; tap the 2 holes of its seat "
-            f"{one.base_screws.screw.name}. Its seat's far end points, from forward to the "
+            f"{pedestal.base_screws.screw.name}. Its seat's far end points, from forward to the "
             f"left, to {turned}. Fit it to the trunk before the foot is on it. "
             + assembly.screwed(kind.screws)
         )

@@ -174,11 +174,11 @@ def _top_view(plate: CarrierPlate) -> tuple[sheet.Scale, list[Item]]:
         Lettering((edge_left - 4.0, middle[1] - 2.0), "y, left", 1.8, Anchor.END),
         *_height_dimension(in_mm(length), edge_right, (upper, lower)),
     ]
-    taken = [_points(item) for item in items]
+    occupied = [_points(item) for item in items]
     for name, at, radius in holes:
-        label = _hole_name(name, at, radius, np.concatenate(taken))
+        label = _hole_name(name, at, radius, np.concatenate(occupied))
         items.append(label)
-        taken.append(_points(label))
+        occupied.append(_points(label))
     # The edge seen from the front, below the plate in first-angle projection.
     edge_top = lower + 14.0
     edge_bottom = edge_top + scale(thickness)

@@ -220,9 +220,9 @@ def _widest_pattern(
             break
         top, low = _top_and_low(surface, patterns.places[rows, :, None] + lands + middle)
         with np.errstate(invalid="ignore"):
-            held = (top - low <= FLATNESS) & (top <= z + INTERFERENCE_MAX) & (z - top <= longest)
+            holds = (top - low <= FLATNESS) & (top <= z + INTERFERENCE_MAX) & (z - top <= longest)
         direct = (z - low <= FLATNESS).all(axis=1)
-        scores = np.where(held.all(axis=1), spread[rows] + direct, -1.0)
+        scores = np.where(holds.all(axis=1), spread[rows] + direct, -1.0)
         # Among equals, the first one.
         for row, index in enumerate(rows.tolist()):
             if scores[row] > score or (scores[row] == score and index < best):

@@ -135,12 +135,12 @@ def select_by(
     if not own:
         return selection
     lightest = devices_by_mass(own)[0]
-    there = select(replace(problem, incidence=lightest.incidence))
+    at_its_incidence = select(replace(problem, incidence=lightest.incidence))
     # It is first; motors that are lighter at this incidence, which is not their own, are rejected.
-    heavier = [entry for entry in there.ranking if entry.mass > lightest.mass]
+    heavier = [entry for entry in at_its_incidence.ranking if entry.mass > lightest.mass]
     ranking = (lightest, *(entry for entry in heavier if not same_parts(entry, lightest)))
     listed = {entry.motor.name for entry in ranking}
-    lighter = {entry.motor.name: entry.mass for entry in reversed(there.ranking)}
+    lighter = {entry.motor.name: entry.mass for entry in reversed(at_its_incidence.ranking)}
     only_lighter_here = [
         Rejection(
             name, Reason.INCIDENCE, f"{1e3 * mass:.0f} g, only at another device's incidence", 0.0
@@ -149,10 +149,12 @@ def select_by(
         if name not in listed
     ]
     other_rejections = [
-        rejection for rejection in there.rejections if rejection.motor not in listed
+        rejection for rejection in at_its_incidence.rejections if rejection.motor not in listed
     ]
     return replace(
-        there, ranking=ranking, reasons=partial(tuple, (*only_lighter_here, *other_rejections))
+        at_its_incidence,
+        ranking=ranking,
+        reasons=partial(tuple, (*only_lighter_here, *other_rejections)),
     )
 
 

@@ -289,7 +289,7 @@ def _with_balancing(
     # The plan applies until then.
     time = start_time + np.array([_BALANCE_DELAY, BALANCE_STEP])
     zeros, upright = np.zeros((len(time), 3)), np.tile(gyrostat.upright, (len(time), 1))
-    held = Trajectory(
+    at_rest = Trajectory(
         time=time,
         vertical=scaled_vertical(upright),
         rate=zeros,
@@ -301,13 +301,13 @@ def _with_balancing(
     )
     if planned is not None:
         rows = {
-            field.name: np.concatenate([getattr(planned, field.name), getattr(held, field.name)])
+            field.name: np.concatenate([getattr(planned, field.name), getattr(at_rest, field.name)])
             for field in fields(Trajectory)
             if field.name not in {"note", "step_torque", "gains"}
         }
-        held = Trajectory(**rows, note="")
-    gains = tracking_gains(gyrostat, line, held)
-    return replace(held, gains=gains, time=np.append(held.time[:-1], until))
+        at_rest = Trajectory(**rows, note="")
+    gains = tracking_gains(gyrostat, line, at_rest)
+    return replace(at_rest, gains=gains, time=np.append(at_rest.time[:-1], until))
 
 
 def least_power_turn(
