@@ -64,7 +64,7 @@ def on_paper_wheel(robot: Robot, motor: Motor, voltage: float) -> Device:
         inner_radius=INNER_RADIUS,
         outer_radius=OUTER_RADIUS,
         height=HEIGHT,
-        material=material("steel-4140-normalized"),
+        material=material("steel-4140-qt"),
         motor=motor,
         gear=DIRECT,
         line=drive_line(motor, DIRECT, voltage),

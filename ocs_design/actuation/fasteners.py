@@ -78,7 +78,7 @@ class Screw:
     @property
     def stress_area(self) -> float:
         """Tensile stress area of its thread, pi / 4 (d - 0.9382 P)^2 (ISO 898-1, 9.1.6.1) [m^2]."""
-        return pi / 4.0 * self._stressed_diameter**2
+        return pi / 4.0 * self.stressed_diameter**2
 
     @property
     def preload(self) -> float:
@@ -88,7 +88,7 @@ class Screw:
         d_2) + 1.155 mu))^2)`, d_0 that of the stress area.
         """
         flank, area = self._pitch_diameter, self.stress_area
-        twist = 1.5 * flank / self._stressed_diameter * (self.pitch / (pi * flank) + 1.155 * MU)
+        twist = 1.5 * flank / self.stressed_diameter * (self.pitch / (pi * flank) + 1.155 * MU)
         return 0.9 * CLASSES[USUAL_CLASS].yields * area / sqrt(1.0 + 3.0 * twist**2)
 
     def torque(self, preload: float) -> float:
@@ -119,7 +119,7 @@ class Screw:
         return self.diameter - 0.6495 * self.pitch
 
     @property
-    def _stressed_diameter(self) -> float:
+    def stressed_diameter(self) -> float:
         """Diameter of the stress area [m]."""
         return self.diameter - 0.9382 * self.pitch
 

@@ -26,6 +26,8 @@ class Material:
         source: of the figures.
         elastic_modulus: [Pa]; None if the source gives none.
         thermal_expansion: per temperature, linear [1/K]; None if the source gives none.
+        order: designation, condition and standard to order it by, whose least strengths those
+            above are, for bars as thick as a wheel is wide; empty: no figure is guaranteed.
     """
 
     name: str
@@ -36,6 +38,7 @@ class Material:
     source: str
     elastic_modulus: Annotated[float | None, Unit("pa")] = None
     thermal_expansion: Annotated[float | None, Unit("per_k")] = None
+    order: str = ""
 
 
 def _faults(material: Material) -> Iterator[str]:
@@ -60,13 +63,26 @@ def load_materials(path: Path) -> Mapping[str, Material]:
     return load_entries(path, "material", Material, _faults)
 
 
+_FORMER_NAMES = {
+    "steel-1045-cold-worked": "steel-1045-normalized",
+    "steel-4140-normalized": "steel-4140-qt",
+}
+"""Names in earlier files of conditions whose strength no standard guarantees in a wheel's size, and
+the names of the conditions that are ordered in their place."""
+
+
 def material(name: str) -> Material:
-    """The material called `name`.
+    """The material called `name`, now or formerly.
 
     Raises:
         SpecificationError: there is none; the hint names the closest.
     """
-    return entry(materials(), name, "material")
+    return entry(materials(), _FORMER_NAMES.get(name, name), "material")
+
+
+def recorded_material(name: str) -> Material | None:
+    """The material that a design names, now or formerly; None: it is not in the catalogue."""
+    return materials().get(_FORMER_NAMES.get(name, name))
 
 
 _STEELS = ("stainless-", "steel-")

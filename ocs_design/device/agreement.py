@@ -14,7 +14,7 @@ import numpy as np
 
 from ocs_design import __version__
 from ocs_design.actuation.motor import DIRECT
-from ocs_design.catalogue.materials import materials
+from ocs_design.catalogue.materials import recorded_material
 from ocs_design.common.errors import OcsError
 from ocs_design.common.units import format_quantity
 from ocs_design.device.device import Device
@@ -112,7 +112,7 @@ def _figures(design: OcsDesign, device: Device) -> Iterator[_Figure]:
     yield from _selection_figures(design)
     yield from _drive_figures(device)
     yield from _limit_figures(design, device)
-    yield from _wheel_figures(device)
+    yield from _wheel_figures(design, device)
     # Another version may build the stationary parts differently; the bill of materials reports the
     # difference.
     if design.tool.version == __version__ and design.ocs.center_of_mass is not None:
@@ -197,7 +197,7 @@ def _limit_figures(design: OcsDesign, device: Device) -> Iterator[_Figure]:
             yield _Figure(key, limit, capacity - friction, unit, basis)
 
 
-def _wheel_figures(device: Device) -> Iterator[_Figure]:
+def _wheel_figures(design: OcsDesign, device: Device) -> Iterator[_Figure]:
     """Masses, inertias, energy and stress of the wheel."""
     wheel, motor, sizes = device.flywheel, device.motor, "its dimensions give"
     web, hub, web_density = wheel.web, None, wheel.density
@@ -217,7 +217,7 @@ def _wheel_figures(device: Device) -> Iterator[_Figure]:
     yield _Figure("ocs.flywheel.transverse_inertia", stated, transverse, unit, sizes)
     energy, speed = stored_energy(spin, motor.top_speed), "inertia and top speed give"
     yield _Figure("ocs.flywheel.stored_energy", wheel.stored_energy, energy, "J", speed)
-    material = materials().get(wheel.material)
+    material = recorded_material(wheel.material)
     if wheel.hoop_stress is None or material is None or material.poisson_ratio is None:
         return
     stress = hoop_stress(
@@ -229,8 +229,13 @@ def _wheel_figures(device: Device) -> Iterator[_Figure]:
     )
     basis = "dimensions, material and top speed give"
     yield _Figure("ocs.flywheel.hoop_stress", wheel.hoop_stress, stress, "Pa", basis)
-    if wheel.stress_margin is not None and material.yield_strength is not None:
-        margin = material.yield_strength / stress
+    # The strength that its margins state: the catalogue's may have been corrected since.
+    strength = material.yield_strength
+    for limit in design.margins:
+        if limit.name.startswith("hoop stress"):
+            strength = limit.capacity
+    if wheel.stress_margin is not None and strength is not None:
+        margin = strength / stress
         yield _Figure("ocs.flywheel.stress_margin", wheel.stress_margin, margin, "", basis)
 
 

@@ -6,7 +6,7 @@ from math import floor
 
 from ocs_design.actuation.fasteners import LIGAMENT, BoltedJoint, Fastening, longest_within, screw
 from ocs_design.actuation.motor import DIRECT
-from ocs_design.catalogue.materials import Material, materials
+from ocs_design.catalogue.materials import Material, material, recorded_material
 from ocs_design.common.units import STANDARD_GRAVITY, format_quantity
 from ocs_design.device.device import Device, Module
 from ocs_design.device.records.flights import Margin
@@ -41,14 +41,24 @@ from ocs_design.parts.joints import (
 )
 from ocs_design.parts.motor_mount import bond_length, motor_front
 from ocs_design.parts.plate_strength import plate_screws_use
-from ocs_design.parts.printed import SHOCK, WASHER_HEIGHT, trunk_screws
+from ocs_design.parts.printed import (
+    CLEARANCE,
+    PETG,
+    PRESSURE_SHARE,
+    SHOCK,
+    WASHER_HEIGHT,
+    trunk_screws,
+)
+from ocs_design.parts.tightening import MotorGrip, motor_grips
 from ocs_design.parts.turning_rings import Ring, TurningRings, holed_peaks
+from ocs_design.parts.web_bending import bent_web
 from ocs_design.parts.wheel import Flywheel, Web
 
-RIM_JOINT, SHAFT_JOINT = "rim joint", "shaft joint"
+RIM_JOINT, SHAFT_JOINT, MOUNT_JOINT = "rim joint", "shaft joint", "motor mount"
 WHEEL_STRESS = "largest stress of the wheel"
 
 FOOT_SHOCK, FLOOR_SHOCK = "landing shock, foot", "landing shock, cage"
+WEB_SHOCK = "landing shock, web"
 SCREWS_SHOCK = "landing shock, screws in the trunk"
 
 BEARING_MOMENT = "bearing moment"
@@ -129,11 +139,43 @@ def joints_of(device: Device) -> tuple[Margin, ...]:
     A joint of unknown capacity keeps the device from being built.
     """
     if device.on_bell:
-        return (*_bell_joints(device), *_shocks(device))
+        return (*_bell_joints(device), *_mount_joints(device), *_shocks(device))
     web = device.flywheel.web
     if web is None:
         return ()
-    return (*_rim_joints(device, web), *_shaft_joints(device, web), *_shocks(device))
+    own = *_rim_joints(device, web), *_shaft_joints(device, web)
+    return (*own, *_mount_joints(device), *_shocks(device))
+
+
+def slipping(device: Device) -> tuple[MotorGrip, ...]:
+    """Screws between motor and foot whose friction may not hold its torque.
+
+    The booklet has their holes filled with epoxy.
+    """
+    torque = SERVICE * (device.motor.torque_limit or 0.0)
+    return tuple(grip for grip in motor_grips(device.mount) if grip.friction < torque)
+
+
+def _mount_joints(device: Device) -> Iterator[Margin]:
+    """Margin of the screws between motor and foot, by friction or in filled holes."""
+    grips, slip = motor_grips(device.mount), slipping(device)
+    if not grips:
+        return
+
+    def holds(grip: MotorGrip) -> float:
+        return max(grip.friction, grip.filled) if grip in slip else grip.friction
+
+    weakest = min(grips, key=holds)
+    screws = weakest.fastening
+    by = "by friction under their heads, limited by the print"
+    if weakest in slip:
+        by = (
+            "in their holes, filled with epoxy: the print bears "
+            f"{1e-6 * PRESSURE_SHARE * PETG.strength:g} MPa, half its yield strength"
+        )
+    note = f"{screws.name}: {screws.count} x {screws.screw.name} {by}, against {SERVICE:g} x peak"
+    torque = SERVICE * (device.motor.torque_limit or 0.0)
+    yield Margin(MOUNT_JOINT, torque, holds(weakest), "N m", note=f"{note} torque")
 
 
 def _shocks(device: Device) -> Iterator[Margin]:
@@ -154,6 +196,7 @@ def _shocks(device: Device) -> Iterator[Margin]:
         if max(plate.sleeves) > 0.0:
             note += f", or a {'post' if plate.on_posts else 'sleeve'} gives way"
         yield Margin(SCREWS_SHOCK, SHOCK, SHOCK / use, "m/s2", note=note)
+    yield from _web_shock(device)
     cage = device.mount.cage
     if cage is not None:
         drive, wheel = device.motor.mass or 0.0, device.flywheel.mass
@@ -168,14 +211,48 @@ def _shocks(device: Device) -> Iterator[Margin]:
             yield Margin(FLOOR_SHOCK, SHOCK, capacity, "m/s2", note=note)
 
 
+def _web_shock(device: Device) -> Iterator[Margin]:
+    """Acceleration along its axis that a spinning wheel withstands on its web.
+
+    The web has what spinning at top speed, or the shrink fit, leaves of its strength; and the rim
+    must not touch its housing.
+    """
+    wheel, rings, fit = device.flywheel, wheel_rings(device.flywheel), rim_fit(device)
+    web = wheel.web
+    if web is None or rings is None or (fit is None and web.material != wheel.material):
+        return
+    metal, (hub, disc, rim) = material(web.material), rings
+    if metal.yield_strength is None:
+        return
+    spun = TurningRings.of(rings, device.motor.top_speed).peak(1) if fit is None else fit.stress_web
+    bent = bent_web(
+        SHOCK * wheel.mass,
+        (hub.outer, rim.inner),
+        disc.thickness,
+        elastic_modulus=disc.elastic_modulus,
+        poisson_ratio=disc.poisson_ratio,
+        holes=web.holes,
+    )
+    yields, touches = (metal.yield_strength - spun) / bent.stress, CLEARANCE / bent.deflection
+    end = "its web yields" if yields < touches else "its rim touches the housing"
+    shock, moved = (
+        f"{SHOCK / STANDARD_GRAVITY:.0f} g",
+        format_quantity(bent.deflection, "mm", digits=2),
+    )
+    note = (
+        f"a shock of {shock} on a wheel at top speed, along its axis, until {end}; at {shock} the "
+        f"rim moves by {moved}"
+    )
+    yield Margin(WEB_SHOCK, SHOCK, SHOCK * max(min(yields, touches), 0.0), "m/s2", note=note)
+
+
 def wheel_rings(wheel: Flywheel) -> tuple[Ring, ...] | None:
     """Hub, web and rim as rings; None where material data are unknown."""
     web = wheel.web
     if web is None:
         return None
-    known = materials()
-    web_elastic = _elastic(known.get(web.material))
-    rim_elastic = _elastic(known.get(wheel.material))
+    web_elastic = _elastic(recorded_material(web.material))
+    rim_elastic = _elastic(recorded_material(wheel.material))
     if web_elastic is None or rim_elastic is None:
         return None
     hub = web.hub
@@ -207,7 +284,7 @@ def _rim_joints(device: Device, web: Web) -> Iterator[Margin]:
             f"in {where} at {OVERSPEED:g} x top speed, against yield; one piece, as a rotating "
             "disc of three thicknesses"
         )
-        strength = materials()[wheel.material].yield_strength
+        strength = material(wheel.material).yield_strength
         yield Margin(WHEEL_STRESS, peak, strength, "Pa", note=note)
     elif fit is None:
         yield Margin(RIM_JOINT, 0.0, None, "N m", note="thermal expansions are not known")
@@ -225,10 +302,10 @@ def _rim_joints(device: Device, web: Web) -> Iterator[Margin]:
         torque = SERVICE * (device.motor.torque_limit or 0.0)
         yield Margin(RIM_JOINT, torque, fit.torque, "N m", note=note)
         stresses = (("web", fit.stress_web, web.material), ("rim", fit.stress_rim, wheel.material))
-        for part, stress, material in stresses:
-            strength, note = materials()[material].yield_strength, "at the tightest fit, to yield"
-            name = f"{part} of the shrink fit"
-            yield Margin(name, stress, strength, "Pa", note=f"largest stress {note}")
+        for part, stress, name in stresses:
+            strength, note = material(name).yield_strength, "at the tightest fit, to yield"
+            held = f"{part} of the shrink fit"
+            yield Margin(held, stress, strength, "Pa", note=f"largest stress {note}")
         buckling, note = "web of the shrink fit, to buckling", "a full plate with its edge held"
         yield Margin(buckling, fit.squeezed, fit.buckling, "Pa", note=note)
 
@@ -258,7 +335,7 @@ def yield_margin(device: Device, speed: float) -> tuple[str, float] | None:
     Args:
         device: device with the wheel. speed: of the wheel [rad/s].
     """
-    wheel, known = device.flywheel, materials()
+    wheel = device.flywheel
     rings, web, fit = wheel_rings(wheel), wheel.web, rim_fit(device)
     if rings is None or web is None:
         if wheel.stress_margin is None:
@@ -271,8 +348,8 @@ def yield_margin(device: Device, speed: float) -> tuple[str, float] | None:
         peaks.append((*_peak(web, rings, speed), wheel.material))
     margins = [
         (where, strength / stress)
-        for where, stress, material in peaks
-        if (strength := known[material].yield_strength) is not None
+        for where, stress, name in peaks
+        if (strength := material(name).yield_strength) is not None
     ]
     return min(margins, key=lambda margin: margin[1], default=None)
 
@@ -284,7 +361,7 @@ def rim_fit(device: Device) -> ShrinkFit | None:
     if wheel.web is None or rings is None or wheel.web.material == wheel.material:
         return None
     names, hub = (wheel.web.material, wheel.material), wheel.web.hub
-    web_expansion, rim_expansion = (materials()[name].thermal_expansion for name in names)
+    web_expansion, rim_expansion = (material(name).thermal_expansion for name in names)
     if web_expansion is None or rim_expansion is None:
         return None
     return shrink_fit(
@@ -349,23 +426,23 @@ def _shaft_joints(device: Device, web: Web) -> Iterator[Margin]:
 def _bell_joints(device: Device) -> Iterator[Margin]:
     """Margins of a ring around its motor's bell: stress, and bond under torque and speed."""
     wheel, speed = device.flywheel, OVERSPEED * device.motor.top_speed
-    material, bond_strength = materials().get(wheel.material), BOND_SHARE * EPOXY_STRENGTH
-    elastic = _elastic(material)
-    if material is None or elastic is None or material.thermal_expansion is None:
+    metal, bond_strength = recorded_material(wheel.material), BOND_SHARE * EPOXY_STRENGTH
+    elastic = _elastic(metal)
+    if metal is None or elastic is None or metal.thermal_expansion is None:
         unknown = f"elastic figures or expansion of {wheel.material} are not known"
         yield Margin(WHEEL_STRESS, 0.0, None, "Pa", note=unknown)
     else:
         ring = Ring(wheel.inner_radius, wheel.outer_radius, wheel.height, wheel.density, *elastic)
         stress = TurningRings.of((ring,), speed).peak(0)
         note = f"a ring by itself at {OVERSPEED:g} x top speed, against yield"
-        yield Margin(WHEEL_STRESS, stress, material.yield_strength, "Pa", note=note)
+        yield Margin(WHEEL_STRESS, stress, metal.yield_strength, "Pa", note=note)
         tension = bell_bond_tension(
             ring.inner,
             ring.outer,
             density=ring.density,
             elastic_modulus=ring.elastic_modulus,
             poisson_ratio=ring.poisson_ratio,
-            expansion=material.thermal_expansion,
+            expansion=metal.thermal_expansion,
             speed=speed,
         )
         note = (

@@ -9,15 +9,16 @@ from pathlib import Path
 
 from ocs_design.actuation.fasteners import STEEL, Fastening
 from ocs_design.actuation.motor import DIRECT
+from ocs_design.catalogue.materials import recorded_material
 from ocs_design.device.device import Device
 from ocs_design.device.joints import (
     bonded_on_shaft,
     counted_foot_screws,
     foot_screws,
+    slipping,
     unheld_moment,
 )
 from ocs_design.device.records.flights import Margin
-from ocs_design.export.assembly.content import slipping
 from ocs_design.export.assembly_notes import drive_notes
 from ocs_design.export.device_parts import BLOCK, pedestal_kinds, printed_parts, ring_fixture
 from ocs_design.export.electrics import battery, controllers, wiring_parts
@@ -45,6 +46,9 @@ COLUMNS = (
 
 _ALLOWANCE = 2e-3
 """Allowance of stock on finished diameter and length, to turn clean and to part off [m]."""
+
+LARGEST_BAR = 250
+"""Largest diameter of a round bar [mm]: EN 10083 and EN 10088-3 guarantee no strength above it."""
 
 _MASSLESS = 1e-9
 """Rounding error of masses: remainder of a module's mass after subtracting all parts [kg]."""
@@ -285,7 +289,7 @@ def bill_csv(device: Device, margins: Sequence[Margin] = (), refused: str = "") 
         )
     for row in rows:
         masses = [_grams(row.mass), _grams(row.quantity * row.mass)] if row.mass else ["", ""]
-        cells = [row.part, str(row.quantity), row.material, row.stock, *masses]
+        cells = [row.part, str(row.quantity), _ordered(row.material), row.stock, *masses]
         cells += [row.remark, row.source]
         writer.writerow([plain(cell) for cell in cells])
     total = sum(row.quantity * row.mass for row in rows)
@@ -341,11 +345,18 @@ def _web_text(web: Web) -> str:
     )
 
 
+def _ordered(name: str) -> str:
+    """A material with the designation that it is ordered by, if it is in the catalogue."""
+    known = recorded_material(name)
+    return f"{name}: {known.order}" if known is not None and known.order else name
+
+
 def _stock(outer_radius: float, inner_radius: float, length: float) -> str:
-    """Ring for a bore of more than half the diameter, else a bar; whole millimetres."""
+    """Ring for a bore of more than half the diameter, else a bar or disc; whole millimetres."""
     outside, cut = _least(2.0 * outer_radius), _least(length)
     if inner_radius <= 0.5 * outer_radius:
-        return f"round bar, at least {outside} x {cut}"
+        form = "round bar" if outside <= LARGEST_BAR else "disc cut from plate"
+        return f"{form}, at least {outside} x {cut}"
     inside = math.floor(round(1e3 * (2.0 * inner_radius - _ALLOWANCE), 6))
     return f"tube or plate, at least {outside} x {cut}, at most {inside} inside"
 

@@ -15,7 +15,7 @@ from functools import cached_property
 from math import pi, sqrt
 from typing import Generic
 
-from ocs_design.actuation.fasteners import BoltCircle, screw
+from ocs_design.actuation.fasteners import SCREWS, BoltCircle, Screw, screw
 from ocs_design.common.arrays import Table
 from ocs_design.parts.moments import MassMoments, Real, round_body
 from ocs_design.parts.printed import (
@@ -38,8 +38,12 @@ from ocs_design.parts.printed import (
 from ocs_design.parts.shapes import EAR_COUNT, Eared, Post
 from ocs_design.parts.solids import Part, Prism
 
-LEAST_POST = 6.0e-3
-"""Shortest post [m]: three diameters of the M2 thread that is cut into it."""
+LEAST_POST = 3.0
+"""Shortest post over the diameter of the thread that is cut into it."""
+
+HEAVIER = 2.0
+"""Mass on the ears' screws over that of the motor, when they are chosen: wheel and cage weigh as
+much as a light motor, and a fifth of a heavy one."""
 
 HALF_POST = pi / 8.0
 """Half of each post's angle around the axis [rad]: half of the wall is open. At 20 g, 0.2 kg of
@@ -99,6 +103,7 @@ class Cage:
         front: from the wheel's middle to the motor's turning front [m].
         rim_height: of the wheel that its motor turns [m].
         foot_plate: thickness of the foot's plate [m].
+        screw: in its ears.
     """
 
     motor_radius: float
@@ -107,6 +112,7 @@ class Cage:
     front: float
     rim_height: float = 0.0
     foot_plate: float = PLATE_THICKNESS
+    screw: Screw = LID_SCREW
 
     @property
     def bore(self) -> float:
@@ -139,15 +145,20 @@ class Cage:
         return self.posts.length(self.rim_height) + self.floor
 
     @property
+    def least_post(self) -> float:
+        """Least length of its posts [m]."""
+        return LEAST_POST * self.screw.diameter
+
+    @property
     def rim_height_max(self) -> float:
         """Height of a rim at which posts have their least length [m]."""
-        room = self.seat - self.foot_plate - LEAST_POST - half_height(0.0)
+        room = self.seat - self.foot_plate - self.least_post - half_height(0.0)
         return 2.0 * room
 
     @property
     def reach(self) -> float:
         """Radius within which its ears stay [m]."""
-        return ear_axis(self.across, LID_SCREW) + ear_radius(LID_SCREW)
+        return ear_axis(self.across, self.screw) + ear_radius(self.screw)
 
     @property
     def passage(self) -> MountHoles:
@@ -155,13 +166,13 @@ class Cage:
 
         The first ear is straight up.
         """
-        axis = 2.0 * ear_axis(self.across, LID_SCREW)
-        return MountHoles(self.bore, BoltCircle(axis, EAR_COUNT, LID_SCREW.name))
+        axis = 2.0 * ear_axis(self.across, self.screw)
+        return MountHoles(self.bore, BoltCircle(axis, EAR_COUNT, self.screw.name))
 
     @property
     def band(self) -> Eared[float]:
         """Outline of its floor."""
-        return eared(self.across, LID_SCREW, FIRST_EAR)
+        return eared(self.across, self.screw, FIRST_EAR)
 
     @cached_property
     def posts(self) -> Posts[float]:
@@ -179,6 +190,18 @@ class Cage:
     @property
     def _drilled(self) -> tuple[Prism[float], ...]:
         return tuple(self.holes.prisms(0.0, self.floor))
+
+
+def ear_screws(motor: float | None) -> tuple[Screw, ...]:
+    """Screws for the ears of a cage around a motor of that mass [kg], the best first.
+
+    It is the smallest, from the lid's up, whose four heads bear `SHOCK` (see `HEAVIER`); smaller
+    ones follow, for cages that have no room for it.
+    """
+    pull = HEAVIER * (motor or 0.0) * SHOCK / EAR_COUNT
+    sizes = SCREWS[SCREWS.index(LID_SCREW) :]
+    fit = (at for at, size in enumerate(sizes) if PETG.strength * size.head_area >= pull)
+    return sizes[next(fit, len(sizes) - 1) :: -1]
 
 
 def floor_at_shock(cage: Cage, motor: float, wheel: float) -> float:
@@ -209,14 +232,14 @@ def heads_at_shock(cage: Cage, motor: float, wheel: float) -> float:
     They press on the housing's floor, and hold motor, wheel (masses in kg) and cage on the foot.
     """
     mass = motor + wheel + float(cage_part(cage).mass())
-    return EAR_COUNT * PETG.strength * LID_SCREW.head_area / mass
+    return EAR_COUNT * PETG.strength * cage.screw.head_area / mass
 
 
 def _posts(cage: Cage, low: float, high: float) -> tuple[Prism[float], Prism[float]]:
     """The posts between two heights, and the holes in them [m]."""
     post = Post(cage.band, cage.bore, HALF_POST)
     solid = Prism(post, low, high, count=EAR_COUNT, first=FIRST_EAR)
-    return solid, ear_holes(cage.band, LID_SCREW.tapping_drill, low, high)
+    return solid, ear_holes(cage.band, cage.screw.tapping_drill, low, high)
 
 
 def cage_part(cage: Cage) -> Part[float]:

@@ -23,11 +23,10 @@ from ocs_design.actuation.fasteners import (
 from ocs_design.actuation.motor import AnyMotor, Face, GearRoom, Mounting
 from ocs_design.common.arrays import Table
 from ocs_design.parts.bell import Bell, bell_of
-from ocs_design.parts.cage import HALF_POST, NO_POSTS, Cage, Posts
+from ocs_design.parts.cage import HALF_POST, NO_POSTS, Cage, Posts, ear_screws
 from ocs_design.parts.moments import MassMoments, Real, point, ring
 from ocs_design.parts.printed import (
     CLEARANCE,
-    LID_SCREW,
     PANEL,
     PLATE_THICKNESS,
     WALL,
@@ -164,6 +163,15 @@ class MotorMount:
         circle = self.holes.screws
         return 0.0 if circle is None else circle.radius + screw(circle.thread).head_diameter / 2.0
 
+    @property
+    def heads_rim_height(self) -> float:
+        """Least height of a rim whose web clears the heads in the housing [m]; 0: any."""
+        found = self.holes.screws
+        if found is None:
+            return 0.0
+        room = screw(found.thread).head_height + HEAD_ROOM + WEB_THICKNESS / 2.0 - CLEARANCE
+        return max(2.0 * room, 0.0)
+
     def behind(self, motor: AnyMotor) -> Behind[float]:
         """Extent behind the plate, with the motor."""
         if self.bell is not None:
@@ -272,10 +280,13 @@ def cage_of(motor: AnyMotor, mounting: Mounting, foot_plate: float) -> Cage | No
     # Behind the hub on its rotor's threads, or clear of a hub on its shaft.
     front = hub_height(mounting) / 2.0 + (SHAFT_ROOM if mounting.rotor is None else 0.0)
     holes = screwed_by_face(mounting, stator)
-    cage = Cage(diameter / 2.0, length, holes, front, foot_plate=foot_plate)
-    room_for_ears = sin(HALF_POST - _LEAST_EDGE) * cage.across > ear_radius(LID_SCREW)
-    fits = stator.reach + WALL <= cage.bore and cage.rim_height_max >= RIM_HEIGHT_MIN
-    return cage if room_for_ears and fits else None
+    for ears in ear_screws(motor.mass):
+        cage = Cage(diameter / 2.0, length, holes, front, foot_plate=foot_plate, screw=ears)
+        room_for_ears = sin(HALF_POST - _LEAST_EDGE) * cage.across > ear_radius(ears)
+        fits = stator.reach + WALL <= cage.bore and cage.rim_height_max >= RIM_HEIGHT_MIN
+        if room_for_ears and fits:
+            return cage
+    return None
 
 
 def screwed_by_face(mounting: Mounting, stator: BoltCircle) -> MountHoles:

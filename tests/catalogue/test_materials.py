@@ -3,7 +3,14 @@
 import pytest
 
 from ocs_design.catalogue.gears import gear, gears
-from ocs_design.catalogue.materials import DEFAULT_MATERIAL, load_materials, material, materials
+from ocs_design.catalogue.materials import (
+    DEFAULT_MATERIAL,
+    load_materials,
+    material,
+    materials,
+    recorded_material,
+    strong_materials,
+)
 from ocs_design.catalogue.motors import motor, motors
 from ocs_design.common.errors import SpecificationError
 
@@ -48,6 +55,42 @@ def test_case_spaces_dashes_and_maker_do_not_matter(find, query, name):
 
 def test_densities_are_those_of_metals():
     assert all(2500 < metal.density < 20_000 for metal in materials().values())
+
+
+@pytest.mark.parametrize(
+    ("name", "yields", "breaks", "order"),
+    [
+        ("stainless-304", 190, 500, "1.4301+AT, EN 10088-3"),
+        ("stainless-316", 200, 500, "1.4401+AT, EN 10088-3"),
+        ("steel-a36", 250, 400, "A36, ASTM A36"),
+        ("steel-1045-normalized", 275, 560, "C45+N (1.0503), EN 10083-2"),
+        ("steel-4140-qt", 500, 750, "42CrMo4+QT (1.7225), EN 10083-3"),
+        ("brass-c360", 105, 275, "C36000, H02 or O60, ASTM B16"),
+        ("tungsten-alloy-class-4", 517, 689, "class 4, ASTM B777"),
+        ("aluminium-7075-t6", 400, 440, "EN AW-7075 T6, EN 755-2"),
+        ("aluminium-6061-t6", 240, 260, "EN AW-6061 T6, EN 755-2"),
+        ("titanium-6al-4v", 828, 895, "grade 5, annealed, ASTM B348"),
+    ],
+)
+def test_strengths_are_those_that_the_order_guarantees(name, yields, breaks, order):
+    """In MPa, for bars as thick as wheels are wide: typical or thin ones are stronger."""
+    metal = material(name)
+    assert (metal.yield_strength, metal.ultimate_strength) == (1e6 * yields, 1e6 * breaks)
+    assert metal.order.startswith(order)
+    assert any(standard in metal.source for standard in ("EN ", "ASTM "))
+
+
+def test_every_material_with_a_strength_says_how_it_is_ordered():
+    assert all(metal.order for metal in strong_materials())
+    assert not material("stainless-paper").order
+
+
+def test_former_names_lead_to_the_condition_that_is_ordered():
+    """No standard guarantees a strength of thick bars in the conditions of these names."""
+    assert material("steel-4140-normalized") == material("steel-4140-qt")
+    assert recorded_material("steel-1045-cold-worked") == material("steel-1045-normalized")
+    assert recorded_material("cheese") is None
+    assert "steel-4140-normalized" not in materials()
 
 
 def test_the_default_has_every_strength():

@@ -20,9 +20,10 @@ from ocs_design.parts.pedestal import Pedestal, seat_compliance, strengthened
 from ocs_design.parts.plate_strength import plate_frequency
 from ocs_design.parts.rim import WEB_THICKNESS, Hub
 from ocs_design.parts.turning_rings import TurningRings
+from ocs_design.parts.web_bending import bent_web
 from ocs_design.parts.wheel import Web
 
-STEEL, ALUMINIUM = material("steel-4140-normalized"), material("aluminium-6061-t6")
+STEEL, ALUMINIUM = material("steel-4140-qt"), material("aluminium-6061-t6")
 HUB = Hub(0.0096, 0.005, 0.002, 4, 0.006, 0.0017, chamfer=0.2e-3)
 THREADS = Mounting(shaft_diameter=0.004, rotor=BoltCircle(0.012, 4, "M3"))
 
@@ -96,13 +97,36 @@ def test_heads_of_cage_screws_limit_the_shock_where_the_floor_is_strong():
     They hold the mass of motor, wheel and printed cage.
     """
     thick = replace(DEVICES["caged"], foot_plate=0.03)
-    heavy = replace(thick, motor=replace(thick.motor, mass=8.0, length=0.08))
+    heavy = replace(
+        thick,
+        motor=replace(thick.motor, mass=3.0, length=0.08),
+        flywheel=replace(thick.flywheel, mass=5.0),
+    )
     joint = joints_by_name(heavy)["landing shock, cage"]
     printed = next(part for part in printed_parts(heavy) if part.name == "cage")
-    mass = 8.0 + heavy.flywheel.mass + 1270.0 * part_manifold(printed).volume()
+    mass = 8.0 + 1270.0 * part_manifold(printed).volume()
     assert "heads of the cage's screws" in joint.note
     assert joint.capacity == pytest.approx(1282.0 / mass, rel=1e-3)
     assert type(joint.capacity) is float, "design.json accepts no NumPy scalars"
+
+
+def test_the_web_withstands_a_landing_at_top_speed_without_touching_the_housing():
+    """20 g on the wheel bend it; spinning takes its part of the strength, and 2 mm are free."""
+    light, heavy = device(mass=0.1), device(mass=3.0)
+    spun = TurningRings.of(wheel_rings(light.flywheel), light.motor.top_speed).peak(1)
+    for spinning in (light, heavy):
+        wheel = spinning.flywheel
+        bent = bent_web(
+            20 * 9.80665 * wheel.mass, (HUB.radius, 0.036), WEB_THICKNESS,
+            elastic_modulus=STEEL.elastic_modulus, poisson_ratio=STEEL.poisson_ratio,
+        )  # fmt: skip
+        joint = joints_by_name(spinning)["landing shock, web"]
+        assert joint.margin == pytest.approx((STEEL.yield_strength - spun) / bent.stress)
+        assert "its web yields" in joint.note
+    assert joints_by_name(light)["landing shock, web"].margin > 1.0
+    # A wide web of a strong steel gives before it yields.
+    wide = replace(light, flywheel=replace(light.flywheel, inner_radius=0.25, outer_radius=0.26))
+    assert "its rim touches the housing" in joints_by_name(wide)["landing shock, web"].note
 
 
 def test_a_rim_on_another_web_is_shrunk_on():

@@ -111,6 +111,18 @@ def test_the_rim_fits_into_its_stock(inner, stock):
     assert bill_rows(device)[0].stock == stock
 
 
+def test_materials_are_listed_as_they_are_ordered():
+    """A disc of more than 250 mm comes from plate: no standard has a strength of such bars."""
+    device = full_device()
+    steel = replace(device.flywheel, material="steel-4140-qt", inner_radius=0.0)
+    row = rows_of(bill_csv(replace(device, flywheel=steel)))[0]
+    ordered = "42CrMo4+QT (1.7225), EN 10083-3 (AISI 4140, quenched and tempered)"
+    assert row["material"] == f"steel-4140-qt: {ordered}"
+    for radius, form in ((0.124, "round bar"), (0.125, "disc cut from plate")):
+        wide = replace(device, flywheel=replace(steel, outer_radius=radius))
+        assert bill_rows(wide)[0].stock == f"{form}, at least {2e3 * radius + 2:.0f} x 12"
+
+
 @pytest.mark.parametrize("name", ["=1+1", "+A1", "-2", "@SUM(A1)", "\t=1", "\r=1", " \n=1"])
 def test_names_that_look_like_formulas_are_quoted(name):
     assert plain(name) == "'" + name.strip()

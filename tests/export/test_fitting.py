@@ -72,18 +72,23 @@ def test_feet_bear_the_shock_or_a_note_says_so(mass, share):
         assert not noted
 
 
-@pytest.mark.parametrize(("mass", "noted"), [(0.5, False), (8.0, True)])
+def heavy_device(wheel):
+    """The caged device with a motor of 3 kg, a wheel of this mass [kg] and a thick plate."""
+    thick = replace(DEVICES["caged"], foot_plate=0.03)
+    motor = replace(thick.motor, mass=3.0, length=0.08)
+    return replace(thick, motor=motor, flywheel=replace(thick.flywheel, mass=wheel))
+
+
+@pytest.mark.parametrize(("mass", "noted"), [(0.5, False), (5.0, True)])
 def test_cage_and_drum_bear_the_shock_or_a_note_says_so(mass, noted):
     """Heads of four M2 sink in at 1,282 N (tests/device/test_joints.py): 8.3 kg at 16 g."""
-    thick = replace(DEVICES["caged"], foot_plate=0.03)
-    heavy = replace(thick, motor=replace(thick.motor, mass=mass, length=0.08))
+    heavy = heavy_device(mass)
     assert ("cage and drum hold motor and wheel up to 16 g" in notes(heavy)) == noted
 
 
 def test_parts_that_must_be_milled_are_not_printed_and_their_mass_is_stated():
     """Aluminium of 2.71 g/cm^3 in place of PETG of 1.27 in the volume of the exported meshes."""
-    thick = replace(DEVICES["caged"], foot_plate=0.03)
-    heavy = replace(thick, motor=replace(thick.motor, mass=8.0, length=0.08))
+    heavy = heavy_device(5.0)
     heavy = replace(heavy, carrier=replace(heavy.carrier, mass=20.0))
     text = notes(heavy)
     volumes = {part.name: part_manifold(part).volume() for part in printed_parts(heavy)}
@@ -92,7 +97,7 @@ def test_parts_that_must_be_milled_are_not_printed_and_their_mass_is_stated():
     )
     assert f"mill the feet from 6061-T6 to the same file, {foot} heavier each" in text
     assert f"mill both from 6061-T6 to the same files, {cage} and {drum} heavier" in text
-    for device, milled in ((heavy, True), (thick, False)):
+    for device, milled in ((heavy, True), (DEVICES["caged"], False)):
         (step,) = (each for each in module_steps(Assembly("dog", device)) if "Print drum" in each)
         assert ("The foot is milled instead" in step) == milled
 

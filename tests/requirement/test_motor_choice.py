@@ -105,8 +105,8 @@ def test_all_steels_are_the_default(word):
     assert {material.name for material in chosen} == {
         "stainless-304",
         "stainless-316",
-        "steel-1045-cold-worked",
-        "steel-4140-normalized",
+        "steel-1045-normalized",
+        "steel-4140-qt",
         "steel-a36",
     }
     assert all(7800.0 <= material.density <= 8000.0 for material in chosen)

@@ -83,7 +83,7 @@ def test_all_defaults_without_a_motor_are_reported(solo12):
         "7,200 rpm",
         "r_max 50, r_min 5, h_max 10, h_min 2, wall_min 2 mm",
         "at most 250 g, 10% of the robot's",
-        "stainless-304, 8000 kg/m3",
+        "stainless-304, 7900 kg/m3",
     )
 
 

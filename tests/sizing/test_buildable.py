@@ -39,6 +39,25 @@ def test_buildable_is_decided_as_far_as_it_is_known(motor, mounting, demand, yes
     assert (result.yes, len(result.open)) == (yes, open_points)
 
 
+@pytest.mark.parametrize(
+    ("joint", "cure"),
+    [
+        (
+            Margin("motor mount", 135.0, 134.0, "N m", note="filled with epoxy"),
+            "threads in its stator",
+        ),
+    ],
+)
+def test_a_mount_that_does_not_hold_is_an_open_point(joint, cure):
+    held = replace(joint, capacity=joint.demand)
+    assert buildable(KNOWN_MOTOR, FREE, (), (held,)).yes is True
+    result = buildable(KNOWN_MOTOR, FREE, (), (joint,))
+    assert result.yes is False
+    (point,) = result.open
+    assert point.what.startswith(f"{joint.name}: ")
+    assert cure in point.cure
+
+
 def test_with_unknown_shapes_a_failing_joint_is_a_fault_and_a_collision_is_not():
     """A trunk of unknown shape is a box with the robot's inertia, which a module may overlap."""
     unknown = replace(FREE, feet=(FootContact("left foot", "trunk", None, None, 0.0, held=None),))

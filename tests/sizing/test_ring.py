@@ -209,7 +209,7 @@ def test_of_equally_heavy_rings_the_one_with_the_stronger_bond_leads(heavier):
     choice = design_for()[1].choice
     incidence = choice.chosen.incidence
     problem = with_limit(choice.problem, TIME, MORE_TIME)
-    strong, close = material("steel-4140-normalized"), material("steel-1045-cold-worked")
+    strong, close = material("steel-4140-qt"), material("steel-1045-normalized")
     assert strong.yield_strength > close.yield_strength
     assert strong.thermal_expansion > close.thermal_expansion
     steels = strong, replace(close, density=strong.density * (1.0 + heavier))

@@ -6,7 +6,7 @@ from math import ceil, sqrt
 import numpy as np
 
 from ocs_design.actuation.fasteners import BoltedJoint, screw
-from ocs_design.catalogue.materials import materials
+from ocs_design.catalogue.materials import recorded_material
 from ocs_design.common.units import format_quantity, significant
 from ocs_design.device.bodies import joint_name
 from ocs_design.device.device import Device, Module
@@ -17,12 +17,13 @@ from ocs_design.device.joints import (
     bonded_on_shaft,
     joints_of,
     rim_fit,
+    slipping,
     unheld_moment,
 )
 from ocs_design.device.layout import PAIR, SIDES
 from ocs_design.device.resonances import resonances_of
 from ocs_design.device.solids import shaft_cut
-from ocs_design.export.assembly.content import LEAST_DRILL, Assembly, Tightened, slipping
+from ocs_design.export.assembly.content import LEAST_DRILL, Assembly
 from ocs_design.export.device_parts import BLOCK, foot_holes, pedestal_kinds, places, trunk_holes
 from ocs_design.parts.bell import GLUE_GAP
 from ocs_design.parts.carrier_plate import SHIM, TOUCH, CarrierPlate, steepest
@@ -40,6 +41,7 @@ from ocs_design.parts.printed import (
     WASHER_ACROSS,
     WASHER_HEIGHT,
 )
+from ocs_design.parts.tightening import Tightened
 
 FREE_SPAN = 10.0e-3
 """Width that a printer bridges without supports [m]: an assumption. In a round hole with a
@@ -116,6 +118,9 @@ def _cutters(assembly: Assembly) -> Iterator[str]:
     plate, printed = assembly.device.plate, "drum" in assembly.numbers
     settled = not assembly.refused
     into = {LID_SCREW.name: ["the prints' ears"]} if printed else {}
+    cage = assembly.device.mount.cage if printed else None
+    if cage is not None and cage.screw != LID_SCREW:
+        into = {LID_SCREW.name: ["the drum's ears"], cage.screw.name: ["the cage's"]}
     if assembly.device.pedestals:
         into.setdefault(TRUNK_SCREW.name, []).append("the pedestals' seats")
     if plate is not None and settled:
@@ -138,9 +143,12 @@ def module_steps(assembly: Assembly) -> Iterator[str]:
     device = assembly.device
     if "drum" in assembly.numbers:
         hole, supports, milled = device.foot.housing.mount.pilot_radius, "no supports", ""
-        parts, ears = "drum, lid and foot", "the drum"
-        if "cage" in assembly.numbers:
-            parts, ears = "drum, lid, foot and cage", "drum and cage"
+        cage = device.mount.cage
+        parts, ears = "drum, lid and foot", f"the drum {LID_SCREW.name}"
+        if cage is not None:
+            parts, ears = "drum, lid, foot and cage", f"{ears} and of the cage {cage.screw.name}"
+            if cage.screw == LID_SCREW:
+                ears = f"drum and cage {LID_SCREW.name}"
         if sqrt(2.0) * hole > FREE_SPAN:
             supports += f" except in the hole of {2e3 * hole:.0f} mm of the standing foot"
         if device.foot_hold.heads_bear < SHOCK:
@@ -150,7 +158,7 @@ def module_steps(assembly: Assembly) -> Iterator[str]:
             "in cad/housing.3mf, one of each, arranged by the slicer on your bed of at least "
             f"{ceil(2e3 * device.foot.housing.radius)} mm: 0.2 mm layers, "
             f"100 % infill (strength and masses assume solid parts), {supports}.{milled} Tap the "
-            f"ears of {ears} {LID_SCREW.name}."
+            f"ears of {ears}."
         )
     yield from _wheel_steps(assembly)
     if "guard" in assembly.numbers:
@@ -203,16 +211,21 @@ def _drive_steps(assembly: Assembly) -> Iterator[str]:
     text = {BoltedJoint.MOTOR_IN_CAGE: " Its wires come out between two posts, tied to one."}
     if joint is not None and joint.capacity is not None:
         text[BoltedJoint.WHEEL] = f" They carry the wheel by {joint.note}."
-    slip = {screws.fastening: screws for screws in slipping(device)}
+    slip = {grip.fastening: grip for grip in slipping(device)}
     for screws in assembly.screws_of(*of_motor, BoltedJoint.CAGE, BoltedJoint.WHEEL):
         joined, filled = screws.fastening, ""
         if joined in slip:
+            grip = slip[joined]
+            friction, in_epoxy, torque = (
+                significant(value, 2)
+                for value in (grip.friction, grip.filled, device.motor.torque_limit or 0.0)
+            )
             filled = (
-                f" Their friction may hold no more than {significant(slip[joined].held, 2)} of the "
-                f"motor's {significant(device.motor.torque_limit or 0.0, 2)} N m: wax their shanks "
-                f"and fill their holes in the prints with epoxy ({EPOXY}), or it turns by "
-                f"{format_quantity(slip[joined].play, 'deg', digits=2)} back and forth in their "
-                "play and may work them loose."
+                f" Their friction may hold no more than {friction} of the motor's {torque} N m: "
+                f"wax their shanks and fill their holes in the prints with epoxy ({EPOXY}), in "
+                f"which they hold {in_epoxy} N m. Without it the motor turns by "
+                f"{format_quantity(grip.play, 'deg', digits=2)} back and forth in their play and "
+                "may work them loose."
             )
         yield f"{assembly.screwed(joined)}{filled}{text.get(joined.joint, '')}"
     if joint is not None and joint.capacity is None:
@@ -285,7 +298,7 @@ def _wheel_steps(assembly: Assembly) -> Iterator[str]:
     )
     wheel, web = device.flywheel, device.flywheel.web
     if web is not None and wheel.shape.shrunk_on:
-        hot, fit, material = "", rim_fit(device), materials().get(wheel.material)
+        hot, fit, material = "", rim_fit(device), recorded_material(wheel.material)
         if fit is not None and material is not None and material.thermal_expansion is not None:
             grown = 2.0 * fit.most + DROP
             hotter = grown / (2.0 * wheel.inner_radius * material.thermal_expansion)

@@ -36,6 +36,7 @@ class WheelDrawing:
         bonded: whether it is a ring around the bell of its motor.
         on_shaft: whether the motor's shaft, which the hub's bore fits, is known.
         yield_strength: yield strength of the rim's material used in sizing [Pa]; None: not known.
+        order: designation, condition and standard of that material; empty: not known.
         refused: that the device cannot be built, and why; empty if nothing known prevents it.
         count: number of equal wheels.
     """
@@ -48,6 +49,7 @@ class WheelDrawing:
     bonded: bool = False
     on_shaft: bool = False
     yield_strength: float | None = None
+    order: str = ""
     refused: str = ""
     count: int = 1
 
@@ -98,6 +100,25 @@ def inside_corners(wheel: Wheel) -> tuple[float, float]:
     rings = [at + outward * centroid for _, at, outward in cornered]
     added = sum(2.0 * web.density * area * 2.0 * pi * ring**3 for ring in rings)
     return (radius if rings else 0.0), added / float(total(wheel_parts(wheel)).inertia[2, 2])
+
+
+WORKSHOP_STEP = 0.5e-3
+"""Step of the diameters that a workshop drills or mills without being asked twice [m]."""
+
+
+def workshop_holes(wheel: Wheel) -> tuple[float, float]:
+    """Diameter of the lightening holes in whole steps [m], and its change of the inertia's share.
+
+    Each hole takes pi rho t a^2 (c^2 + a^2 / 2) from the inertia. Both are 0 without holes.
+    """
+    web = wheel.web
+    if web is None or web.holes is None:
+        return 0.0, 0.0
+    drawn, circle = web.holes.hole_radius, web.holes.circle_radius
+    diameter = WORKSHOP_STEP * round(2.0 * drawn / WORKSHOP_STEP)
+    before, after = (a**2 * (circle**2 + a**2 / 2.0) for a in (drawn, diameter / 2.0))
+    less = web.holes.count * pi * web.density * web.thickness * (after - before)
+    return diameter, -less / float(total(wheel_parts(wheel)).inertia[2, 2])
 
 
 GENERAL_TOLERANCES = {6e-3: 0.1e-3, 30e-3: 0.2e-3, 120e-3: 0.3e-3, 400e-3: 0.5e-3, inf: 0.8e-3}

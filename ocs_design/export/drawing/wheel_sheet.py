@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ocs_design.catalogue.materials import materials
+from ocs_design.catalogue.materials import recorded_material
 from ocs_design.common.units import significant
 from ocs_design.device import joints
 from ocs_design.device.device import Device
@@ -32,6 +32,7 @@ from ocs_design.export.drawing.wheel import (
     inertia_error,
     inside_corners,
     seat_limits,
+    workshop_holes,
 )
 from ocs_design.export.drawing.writers import both_formats, pdf_of_pages
 from ocs_design.export.drilling import drilling_of, pages
@@ -53,6 +54,9 @@ RUN_OUT = 1e3 * joints.RUN_OUT
 
 _LEAST_SHARE = 1e-5
 """Share of the inertia that inside corners must add to be noted."""
+
+_SMALL_SHARE = 1e-3
+"""Share of the inertia by which lightening holes of a workshop's size may change it."""
 
 
 def write(subject: "Subject", folder: Path) -> "Notes":
@@ -81,7 +85,7 @@ def wheel_drawing(device: Device, robot: str, refused: str = "") -> WheelDrawing
 
     `refused` says that the device cannot be built, and why.
     """
-    material = materials().get(device.flywheel.material)
+    material = recorded_material(device.flywheel.material)
     speed, fit, mounting = device.motor.top_speed, rim_fit(device), device.motor.mounting
     return WheelDrawing(
         wheel=device.flywheel.shape,
@@ -92,6 +96,7 @@ def wheel_drawing(device: Device, robot: str, refused: str = "") -> WheelDrawing
         bonded=device.on_bell,
         on_shaft=mounting is not None and mounting.shaft_diameter is not None,
         yield_strength=None if material is None else material.yield_strength,
+        order="" if material is None else material.order,
         refused=refused,
         count=len(device.modules),
     )
@@ -174,11 +179,10 @@ def notes(drawing: WheelDrawing) -> Iterator[str]:
         losses = f"{1e3 * mass:.2g}~g and {_percent(share)} of the inertia"
         yield f"{broken_edges.capitalize()}: those of the rim are {losses}, not taken off here."
     if drawing.yield_strength is not None:
-        yield (
-            f"{'Rim of material' if wheel.shrunk_on else 'Material'} with a yield strength of at "
-            f"least {drawing.yield_strength / 1e6:.0f}~MPa, "
-            "as assumed in sizing."
-        )
+        least = f"yield strength of at least {drawing.yield_strength / 1e6:.0f}~MPa"
+        ordered = f"{drawing.order}, or one with a " if drawing.order else "one with a "
+        of = "Rim's material" if wheel.shrunk_on else "Material"
+        yield f"{of}: {ordered}{least}, as assumed in sizing; certificate~3.1 (EN~10204)."
     # Screws clamp a hub by its faces, and a short bore alone does not say where the axis points.
     datum = "the bore" if web is None or web.hub.bolts == 0 else "bore and hub faces"
     run_out = f"Run-out of the rim, around and on its faces, to {datum} at most {RUN_OUT:g}."
@@ -197,6 +201,12 @@ def notes(drawing: WheelDrawing) -> Iterator[str]:
         if radius > 0.0:
             added = f" (+{_percent(share)} of inertia)" if share > _LEAST_SHARE else ""
             yield f"Inside corners at most R~{in_mm(radius)}{added}."
+        diameter, share = workshop_holes(wheel)
+        if diameter > 0.0 and abs(share) < _SMALL_SHARE:
+            yield (
+                f"Lightening holes may be Ø{1e3 * diameter:g}, all alike "
+                f"({100.0 * share:+.2f}~% of inertia)."
+            )
         yield run_out
         if web.hub.bolts == 0 and drawing.on_shaft:
             yield "No bolt circle: bonded on the motor's shaft."
@@ -209,7 +219,10 @@ def _rim_note(drawing: WheelDrawing) -> str:
     if drawing.wheel.web is None:
         return "Rim only: mass and inertia without the spokes and hub that it needs."
     if not drawing.wheel.shrunk_on:
-        return "Rim, web and hub turned from one bar, web and hub in the rim's middle."
+        return (
+            "Rim, web and hub turned from one piece, web and hub in the rim's middle; the web "
+            "last, from both sides in turn, with a plug behind it."
+        )
     if drawing.interference is None:
         return "Rim shrunk on the web; the fit is not computed."
     least, most = (f"{1e3 * value:.3f}" for value in drawing.interference)

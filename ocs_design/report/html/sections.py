@@ -7,7 +7,7 @@ from importlib.metadata import PackageNotFoundError, version
 
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.catalogue.gears import gears
-from ocs_design.catalogue.materials import materials
+from ocs_design.catalogue.materials import recorded_material
 from ocs_design.common.wording import counted, grams
 from ocs_design.device.device import Device
 from ocs_design.device.records.design import OcsDesign
@@ -291,7 +291,7 @@ def record_section(story: Story) -> Markup:
         sources.append(("gear", f"{gear.name}: {gear.source}"))
     material_names = [wheel.material] + ([] if wheel.web is None else [wheel.web.material])
     for name in dict.fromkeys(material_names):
-        material = materials().get(name)
+        material = recorded_material(name)
         if material is not None:
             sources.append(("material", f"{name}: {material.source}"))
     libraries = []

@@ -53,8 +53,9 @@ class Listing:
         by_source: dict[str, list[str]] = {}
         for row in self.rows:
             mounting = motor_mounting(row.mounting) if isinstance(row, Motor) else ""
+            order = row.order if isinstance(row, Material) else ""
             # Materials have no remarks.
-            remarks = (row.source, mounting, str(getattr(row, "remark", "")))
+            remarks = (order, row.source, mounting, str(getattr(row, "remark", "")))
             source = f"{row.name}: {'; '.join(filter(None, remarks))}" if verbose else row.source
             by_source.setdefault(source, []).append(row.name)
         named = (f"{_names_of(names)}: {source}" for source, names in by_source.items())

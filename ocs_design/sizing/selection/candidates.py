@@ -59,6 +59,7 @@ def _seat(motor: Motor, room: GearRoom | None, foot_plate: float, *, on_bell: bo
         room=mount.room,
         bell=0.0 if mount.bell is None else mount.bell.bore,
         head_reach=mount.head_reach,
+        heads_rim_height=mount.heads_rim_height,
     )
 
 
@@ -313,7 +314,8 @@ def drives_of(
     if not problem.web:
         return drives
     radius = np.maximum(drives.hub.radius, drives.seat.head_reach)
-    return replace(drives, hub=replace(drives.hub, radius=radius))
+    height = np.maximum(drives.hub.rim_height, drives.seat.heads_rim_height)
+    return replace(drives, hub=replace(drives.hub, radius=radius, rim_height=height))
 
 
 def _seats(problem: SelectionProblem, pairs: NDArray[np.intp]) -> Seat[FloatArray]:

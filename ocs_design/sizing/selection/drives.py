@@ -30,6 +30,7 @@ class Seat(Table, Generic[Real]):
         room: least rim height for which the housing is made (`MotorMount.room`) [m].
         bell: radius of the bore of a ring around the motor's bell [m]; 0: there is none.
         head_reach: radius that the heads of the screws in the housing reach [m].
+        heads_rim_height: least height of a rim whose web clears them [m]; 0: any.
     """
 
     at_floor: MassMoments[Real]
@@ -42,6 +43,7 @@ class Seat(Table, Generic[Real]):
     room: Real
     bell: Real
     head_reach: Real
+    heads_rim_height: Real
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,7 +52,8 @@ class HubFigures(Table, Generic[Real]):
 
     Attributes:
         radius: of the hub, or of the screw heads beside it [m]; 0 without a web.
-        rim_height: least rim height with room for the hub's screws [m]; 0: any.
+        rim_height: least rim height with room for the hub's screws, and for those under the web
+            [m]; 0: any.
         lightened: fraction of its web that holes remove. lightened_bore: least bore of a rim with
             room for them [m]; 0: any. lightened_stress: see `Hub`.
         volume: mass of the hub beyond its web, over its density [m^3].

@@ -207,7 +207,7 @@ def test_all_plates_are_made_each_to_its_sheet(outwards):
 
 def test_screws_that_the_motor_turns_in_their_play_are_bedded():
     """Heads press on PETG with half of 47 MPa; a torque wrench leaves 1 / 1.6 of that, and a
-    friction coefficient of 0.1 holds it."""
+    friction coefficient of 0.1 holds 1.5 times the torque."""
     device = DEVICES["caged"]
 
     def held(head, hole, radius):
@@ -219,13 +219,13 @@ def test_screws_that_the_motor_turns_in_their_play_are_bedded():
     assert cage is not None
     least, most = sorted((by_motor, by_cage))
     for torque, count in ((0.99 * least, 0), (1.01 * least, 1), (1.01 * most, 2)):
-        strong = replace(device, motor=replace(device.motor, torque_limit=torque))
+        strong = replace(device, motor=replace(device.motor, torque_limit=torque / 1.5))
         text = texts(Assembly("dog", strong), "Steps")
         assert text.count("fill their holes in the prints with epoxy") == count
         assert ("Scotch-Weld" in " ".join(row.part for row in bill_rows(strong))) == (count > 0)
     assert f"no more than {by_motor:.2g} of the motor's" in text
     turned = 180.0 / np.pi * 0.4e-3 / ears.radius
-    assert f"it turns by {turned:.2g} deg back and forth" in text
+    assert f"the motor turns by {turned:.2g} deg back and forth" in text
 
 
 @pytest.mark.parametrize(("angle", "filed"), [(0.0, True), (10.0, False)])
@@ -313,7 +313,7 @@ def test_a_guard_ring_is_built_and_described_with_its_limits():
     assert drum - pieces["guard"].vertices[:, 0].max() == pytest.approx(0.1e-3, abs=5e-5)
     assert "0.1 mm all around, down to its floor" in texts(assembly, "Steps")
     bill = {row.part: row for row in bill_rows(device)}
-    assert bill["epoxy 3M Scotch-Weld DP760"].remark.startswith("guard ring in drum, or an epoxy")
+    assert bill["epoxy 3M Scotch-Weld DP760"].remark.startswith("guard ring in drum and around")
     assert f"outside {2e3 * (drum - 0.1e-3):.2f} (0/-0.2)" in bill["guard ring"].remark
     thin = texts(Assembly("solo12", replace(device, guard_wall=wall / 2.0)), "Safety")
     assert "It does not hold a burst rim" in thin

@@ -101,9 +101,19 @@ def test_every_size_and_hole_is_written_once(drawing, once, notes):
 
 
 def test_the_yield_strength_is_that_of_the_rim():
-    for drawing, piece in ((FLAT, "Rim of material"), (HOLED, "Material")):
+    least = "one with a yield strength of at least 250 MPa, as assumed in sizing"
+    for drawing, piece in ((FLAT, "Rim's material"), (HOLED, "Material")):
         notes = " ".join(words(replace(drawing, yield_strength=250e6)))
-        assert f"{piece} with a yield strength of at least 250 MPa" in notes
+        assert f"{piece}: {least}" in notes
+
+
+def test_the_material_is_named_as_it_is_ordered():
+    """A name such as 304 says neither standard nor condition, and so guarantees no strength."""
+    device = DEVICES["caged"]
+    device = replace(device, flywheel=replace(device.flywheel, material="steel-4140-qt"))
+    notes = " ".join(words(wheel_drawing(device, "dog")))
+    assert "42CrMo4+QT (1.7225), EN 10083-3" in notes
+    assert "of at least 500 MPa, as assumed in sizing; certificate 3.1 (EN 10204)" in notes
 
 
 def test_the_title_has_the_number_of_wheels_to_make():

@@ -65,7 +65,7 @@ def test_the_stronger_steel_is_found_by_an_unranked_search(steels):
 def test_twins_are_equally_light_at_the_incidence_of_the_criterion():
     """Solo12's device is barely feasible: a step too far would end at a smaller radius."""
     design = design_device(solo12_task(motor__name="Antigravity MN5006 KV450"), ranked=False)
-    strong, weak = material("steel-4140-normalized"), material("steel-1045-cold-worked")
+    strong, weak = material("steel-4140-qt"), material("steel-1045-normalized")
     for heavier in (-ROUNDING, ROUNDING):
         steels = replace(weak, density=weak.density * (1.0 + heavier)), strong
         problem = replace(design.choice.problem, materials=steels, incidence=None)
