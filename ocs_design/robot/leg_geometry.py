@@ -35,18 +35,21 @@ class LegGeometry:
     up: FloatArray
 
     @property
-    def steps_sideways(self) -> bool:
-        """Whether the knee turns about B's x axis when the leg bends for a step.
+    def sprawls(self) -> bool:
+        """Whether the leg reaches out sideways and steps by swinging its hip about the vertical.
 
-        A hexapod's leg bends to reach out sideways and steps by swinging its hip about the
-        vertical, so its knee turns about x even if x points forward. Such a leg does not count; it
-        is recognised by having no roll joint.
+        A hexapod's knees turn about x even if x points forward. Such a leg has no roll joint.
         """
         driven, plane = self.chain.driven, self.plane
         axes = self.chain.pose(plane.level).axes
         swings = 0 not in plane.pitch and abs(axes[driven[0]] @ self.up) > SIDEWAYS
         rolls = any(abs(axes[row] @ plane.forward) > SIDEWAYS for row in driven)
-        return bool(abs(plane.axis[0]) > SIDEWAYS and (rolls or not swings))
+        return bool(swings and not rolls)
+
+    @property
+    def steps_sideways(self) -> bool:
+        """Whether the knee turns about B's x axis when the leg bends for a step."""
+        return bool(abs(self.plane.axis[0]) > SIDEWAYS and not self.sprawls)
 
 
 def leg_geometries(tree: Tree, trunk: str, legs: Sequence[Leg]) -> tuple[LegGeometry, ...]:
@@ -101,7 +104,13 @@ def convention_warnings(tree: Tree, trunk: str, legs: Sequence[Leg]) -> list[str
             f"the knees turn about the x axis of the trunk frame '{trunk}', so x seems to point "
             f"sideways, and roll and pitch are swapped: {_CURE}"
         ]
-    if named_front(legs, [geometry.plane.hip for geometry in geometries])[0] < 0.0:
+    front = named_front(legs, [geometry.plane.hip for geometry in geometries])
+    if abs(front[1]) > abs(front[0]) and all(geometry.sprawls for geometry in geometries):
+        return [
+            f"the legs named as front legs are beside the others: x of the trunk frame '{trunk}' "
+            f"seems to point sideways, and roll and pitch are swapped: {_CURE}"
+        ]
+    if front[0] < 0.0:
         return [
             f"the legs named as front legs are behind the others: x of the trunk frame "
             f"'{trunk}' seems to point backwards, so flips are reversed: {_CURE}"
@@ -196,14 +205,19 @@ def _base_rotation(tree: Tree, trunk: str, legs: Sequence[Leg]) -> FloatArray:
     """Axes of B in the trunk's frame, turned by right angles, as columns, shape (3, 3)."""
     geometries = leg_geometries(tree, trunk, legs)
     up = geometries[0].up
-    if up[2] == 1.0 and not all(geometry.steps_sideways for geometry in geometries):
-        return np.eye(3)
     planes = [geometry.plane for geometry in geometries]
-    knees = [plane.axis for plane in planes]
-    sideways = np.sum(np.abs(knees), axis=0) * (up == 0.0)
-    left = np.eye(3)[int(np.argmax(sideways))]
-    candidates = [np.column_stack([np.cross(y, up), y, up]) for y in (left, -left)]
     front = named_front(legs, [plane.hip for plane in planes])
+    if front.any() and all(geometry.sprawls for geometry in geometries):
+        # Only the names tell which way such legs walk.
+        sideways = np.abs(np.cross(up, front))
+        ahead = bool(sideways[1] >= sideways[0])
+    else:
+        sideways = np.sum([np.abs(plane.axis) for plane in planes], axis=0)
+        ahead = not all(geometry.steps_sideways for geometry in geometries)
+    if up[2] == 1.0 and ahead:
+        return np.eye(3)
+    left = np.eye(3)[int(np.argmax(sideways * (up == 0.0)))]
+    candidates = [np.column_stack([np.cross(y, up), y, up]) for y in (left, -left)]
     return max(candidates, key=lambda axes: (np.sign(axes[:, 0] @ front).round(6), np.trace(axes)))
 
 

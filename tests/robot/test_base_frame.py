@@ -47,7 +47,11 @@ def test_inertia_does_not_depend_on_the_trunks_frame(rpy, tmp_path):
 SOLE = '<origin xyz="0 0 -0.14"/>'
 
 
-def hexapod():
+SIDES = tuple(f"{side}{row}" for row in ("front", "middle", "rear") for side in "lr")
+NUMBERS = tuple(map(str, range(1, 7)))
+
+
+def hexapod(names=NUMBERS):
     """URDF of a hexapod: three legs on each side that reach out sideways; x is forward."""
 
     def hinge(name, parent, child, at, axis):
@@ -55,7 +59,7 @@ def hexapod():
         return joint(name, parent, child, f'<origin xyz="{at}"/>', f'<axis xyz="{axis}"/>', limit)
 
     parts = [link("trunk", inertial(2.0, "0.01 0.01 0.02"))]
-    for number, (x, side) in enumerate(product((0.13, 0.0, -0.13), (1.0, -1.0)), 1):
+    for number, (x, side) in zip(names, product((0.13, 0.0, -0.13), (1.0, -1.0)), strict=True):
         coxa, femur, tibia = (f"leg{number}_{part}" for part in ("coxa", "femur", "tibia"))
         parts += [
             link(coxa, inertial(0.1, "2e-5 2e-5 2e-5")),
@@ -80,6 +84,19 @@ def test_sprawling_legs_leave_the_trunk_frame_as_it_is(tmp_path, options):
     assert not any("frame" in warning for warning in robot.warnings)
     # The feet are farther apart sideways than lengthways.
     assert robot.inertia[0, 0] > 1.2 * robot.inertia[1, 1]
+
+
+@pytest.mark.parametrize("rpy", ROTATIONS.values(), ids=ROTATIONS)
+def test_names_tell_which_way_sprawling_legs_walk(rpy, tmp_path):
+    path = tmp_path / "hexapod.urdf"
+    path.write_bytes(hexapod(SIDES))
+    robot, rotated_robot = read_robot(path), rotated(tmp_path, path, "trunk", rpy)
+    assert robot.mount is None
+    assert rotated_robot.trunk == BASE_FRAME
+    np.testing.assert_allclose(rotated_robot.inertia, robot.inertia, atol=1e-8)
+    if rpy == ROTATIONS["x sideways"]:
+        named = read_robot(tmp_path / "rotated.urdf", trunk="new_root")
+        assert any("x of the trunk frame 'new_root'" in warning for warning in named.warnings)
 
 
 @pytest.mark.parametrize(
