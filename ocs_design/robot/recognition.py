@@ -173,6 +173,11 @@ def _best(readings: Sequence[Reading]) -> Reading:
     return max(larger or [best], key=lambda reading: (reading.confidence, len(reading.legs)))
 
 
+def _drop(up: FloatArray, limbs: Sequence[Limb]) -> float:
+    """How far limbs hang along an axis at rest, on average [m]."""
+    return float(np.mean([up @ (limb.hip - limb.tip) for limb in limbs]))
+
+
 _UPS = np.eye(3)[[2, 1, 0]]
 
 _ALIGNED = 0.999
@@ -245,7 +250,8 @@ class _Readings(Anatomy):
                 break
         # An axis that points down, such as a camera's y, is up only if that settles the matter.
         if all(candidate.confidence < SURE for candidate in by_feet.values()):
-            for up, limbs in self._hanging_along(-self.ups):
+            downwards = list(self._hanging_along(-self.ups))
+            for up, limbs in sorted(downwards, key=lambda pair: _drop(*pair))[-1:]:
                 along = self._readings_along(up, limbs, {})
                 by_feet.update((k, v) for k, v in along.items() if v.confidence >= SURE)
         readings = list(by_feet.values())

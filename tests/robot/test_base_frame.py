@@ -196,9 +196,13 @@ def test_a_named_link_with_z_up_settles_which_way_is_up(rpy, tmp_path):
 
 
 @pytest.mark.parametrize("rpy", [*DOWNWARDS.values()][1:], ids=[*DOWNWARDS][1:])
-@pytest.mark.parametrize("name", QUADRUPEDS, ids=lambda name: name.partition("_")[0])
+@pytest.mark.parametrize(
+    "name",
+    [*QUADRUPEDS, "simple_humanoid_description/urdf/simple_humanoid.urdf"],
+    ids=lambda name: name.partition("_")[0],
+)
 def test_an_axis_along_which_all_legs_hang_is_down(rpy, name, tmp_path):
-    """Two of the four legs can stretch along the trunk, and would pass for those of a biped."""
+    """Two of four legs can stretch along the trunk, and would pass for those of a biped."""
     robot = read_robot(ROBOTS / name)
     root = next(iter(robot.tree.bodies[0].links))
     rotated_robot = rotated(tmp_path, ROBOTS / name, root, rpy)
