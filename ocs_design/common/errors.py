@@ -38,6 +38,10 @@ class OcsError(Exception):
         self.message = message
         self.hint = hint
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        # A pool of processes hands an error on by its state, not by its constructor's arguments.
+        return _restored, (type(self), self.args, vars(self))
+
     @property
     def sentence(self) -> str:
         """Message and hint in one line, for a list of faults."""
@@ -46,6 +50,13 @@ class OcsError(Exception):
     def data(self) -> Mapping[str, Any]:
         """Further fields for the JSON form of the error."""
         return {}
+
+
+def _restored(kind: type[OcsError], texts: tuple[str, ...], state: Mapping[str, Any]) -> OcsError:
+    """An error as it was pickled."""
+    error = kind.__new__(kind, *texts)
+    vars(error).update(state)
+    return error
 
 
 class UsageError(OcsError):

@@ -1,5 +1,6 @@
 """Infeasible problems: conflicting limits, largest spin inertia, and relaxations."""
 
+import pickle
 from dataclasses import replace
 
 import numpy as np
@@ -56,6 +57,15 @@ def test_theory_case():
     assert "r_max 30 mm and h_max 10 mm" in error.message
     assert "1.0001e-04 kg m^2" in error.message or "0.00010001 kg m^2" in error.message
     assert error.hint.startswith("Any one of these alone would do: r_max 49 mm; h_max 71.1 mm.")
+
+
+def test_an_error_survives_the_way_out_of_another_process():
+    """A pool that could not unpickle it broke, or waited forever."""
+    error = failure(paper_problem(7.11e-4, 0.03, 0.01))
+    error.assumptions = ("24 V",)
+    again = pickle.loads(pickle.dumps(error))
+    assert (type(again), str(again), again.hint) == (type(error), str(error), error.hint)
+    assert (again.data(), again.exit_code) == (error.data(), 4)
 
 
 def test_bore_and_wall_that_leave_no_rim():

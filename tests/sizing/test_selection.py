@@ -1,5 +1,6 @@
 """The selection: a device recomputed independently, rejections, and relaxations."""
 
+import pickle
 import re
 from dataclasses import replace
 
@@ -156,10 +157,10 @@ def direct_only(problem, **changes):
 
 
 def refusal(problem):
-    """The error of an infeasible problem."""
+    """The error of an infeasible problem, as from another process."""
     with pytest.raises(Infeasible) as caught:
         select(problem)
-    return caught.value
+    return pickle.loads(pickle.dumps(caught.value))
 
 
 @pytest.mark.exhaustive
