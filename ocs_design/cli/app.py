@@ -206,13 +206,13 @@ def _design(
     from ocs_design.common.workers import WorkerPool
     from ocs_design.requirement.vocabulary import NO_MOTOR
 
+    # Nothing is rendered; without this setting, MuJoCo starts processes to look for a window
+    # library, here and in each worker.
+    os.environ.setdefault("MUJOCO_GL", "disabled")
     chosen = specification.motor.name != NO_MOTOR
     # They import while this process does; more processes would have nothing to do.
     with WorkerPool("ocs_design.sizing.alternatives" if chosen else None, most=3) as workers:
         with steps.step("load the solver and the simulator"):
-            # Nothing is rendered; without this setting, MuJoCo starts processes to look for a
-            # window library.
-            os.environ.setdefault("MUJOCO_GL", "disabled")
             # Importing creates some hundred thousand objects and hardly any garbage, and the
             # collector scans all of them again and again. Later it is needed: meshes leave a lot
             # of garbage.

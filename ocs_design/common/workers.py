@@ -4,6 +4,7 @@ Selections are Python on small arrays: a thread would only take turns with the c
 the standard library run the caller's main module again, which a user's script may not be made for.
 """
 
+import gc
 import pickle
 import subprocess
 import sys
@@ -109,7 +110,10 @@ if __name__ == "__main__":
     with suppress(EOFError, BrokenPipeError):
         # Printed output must not mix with the bytes of the answers.
         answers, sys.stdout = sys.stdout.buffer, sys.stderr
+        # Imports leave hardly any garbage; without collecting they take a tenth less time.
+        gc.disable()
         import_module(sys.argv[1])
+        gc.enable()
         # Objects shared by several calls are sent once, and keep their cached results.
         calls = pickle.Unpickler(sys.stdin.buffer)
         while True:

@@ -10,6 +10,7 @@ numbers, arrays that broadcast, or CasADi symbols.
 """
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from math import ceil, pi, sqrt
 from typing import Generic
 
@@ -108,40 +109,40 @@ class Foot(Generic[Real]):
         """Screws that hold it on the trunk; its thickness must be a number."""
         return trunk_screws(float(self.thickness))
 
-    @property
+    @cached_property
     def wheel_height(self) -> Real:
         """Height of the wheel's centre above the underside [m]."""
         rim = self.housing.rim_radius + self.housing.guard_wall
         return housing_outer_radius(rim) + (self.base + CLEARANCE)
 
-    @property
+    @cached_property
     def half_width(self) -> Real:
         """Radius of the plate's disc [m]."""
         housing = self.housing
         return elementwise_max(PLATE_SHARE * housing.radius, housing.mount.reach + PLATE_MARGIN)
 
-    @property
+    @cached_property
     def stem(self) -> Real:
         """Half the width of the plate's stem [m]."""
         return elementwise_max(STEM_SHARE * self.housing.radius, STEEPEST * self.half_width)
 
-    @property
+    @cached_property
     def back(self) -> Real:
         """Distance of the plate's back from the wheel's middle [m]."""
         return self.housing.half_height + self.thickness
 
-    @property
+    @cached_property
     def slot_radius(self) -> Real:
         """Radius of the slots, such that screw heads at their ends clear the plate [m]."""
         return sqrt(2.0) * (self.back + TRUNK_SCREW.head_diameter / 2.0 + WALL)
 
-    @property
+    @cached_property
     def corner(self) -> Real:
         """Radius of the stem's corners around the middle of the base [m]."""
         radius: Real = (self.stem**2 + self.back**2) ** 0.5
         return radius
 
-    @property
+    @cached_property
     def base_radius(self) -> Real:
         """Radius that encloses slots, screw heads and plate, with the marks outside of them [m]."""
         around, corner = self.slot_radius + AROUND_SLOT, self.corner

@@ -43,12 +43,12 @@ _PARTS = 12
 _ROUNDS_PER_DIGIT = 4.0 / 3.0
 """Rounds per digit of the radius."""
 
-# Changing the height changes C by under a fifth as much, and the cuts by more.
-_BORE_ROUNDS = 5
-"""Largest number of iterations for the bore of a plain rim."""
-
 _DIGITS = 9
-"""Digits to which radius and bore are solved; with cuts or holes, one iteration for each."""
+"""Digits to which radius and bore are solved, the bore in at most as many iterations."""
+
+_STEEPEST = 0.5
+"""Largest slope of an iteration for the bore that a secant is trusted with: changing the height
+changes C by under a fifth as much, and the cuts by more."""
 
 _E_MAX = 0.5
 """Largest e (see the module's docstring); e is small unless the bore is tiny."""
@@ -115,13 +115,18 @@ def lightest_module_at(
     """The lightest of each spin inertia [kg m^2] with an outer radius [m] near the one given."""
     inertia = np.asarray(spin_inertia, dtype=np.float64)
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        low, high = _radii(inertia, limits)
+        low, high = _radii(inertia, limits, np.asarray(outer_radius))
         return _shape(inertia, np.clip(outer_radius, low, high), limits, shell)
 
 
-def _radii(inertia: FloatArray, limits: RimLimits) -> tuple[FloatArray, FloatArray]:
-    """Smallest and largest outer radius of a rim [m]; NaN where no rim is feasible."""
-    low, high = smallest_radius(inertia, limits), largest_radius(inertia, limits)
+def _radii(
+    inertia: FloatArray, limits: RimLimits, near: FloatArray | None = None
+) -> tuple[FloatArray, FloatArray]:
+    """Smallest and largest outer radius of a rim [m]; NaN where no rim is feasible.
+
+    With a radius `near`, they are rough where it lies between them.
+    """
+    low, high = smallest_radius(inertia, limits, near), largest_radius(inertia, limits, near)
     flat = np.asarray(limits.height_min) <= np.asarray(limits.height_max) * (1.0 + _ROUNDING)
     fits = (low <= high * (1.0 + _ROUNDING)) & (inertia > 0.0) & flat
     return np.where(fits, np.minimum(low, high), np.nan), np.where(fits, high, np.nan)
@@ -185,15 +190,23 @@ def _best_bore(
     lower, upper = _bounds(inertia, outer_radius, limits, fixed_bounds, None)
     e: float | FloatArray = 0.0
     has_holes = bool(np.any(np.asarray(limits.web_weight) < 1.0))
-    rounds = digits if limits.cuts.any or has_holes else min(digits, _BORE_ROUNDS)
-    for rounds_left in range(rounds - 1, -1, -1):
+    # Bores that were tried, and those found from them.
+    tried, found = list[FloatArray](), list[FloatArray]()
+    for _ in range(digits):
         per_height = shell.mass_per_height(outer_radius, height)
         ratio = per_height / (np.pi * limits.density)
         q = ratio / (1.0 - e)
         stationary = square + q - np.sqrt(q * (2.0 * square + q))
         bore = np.clip(stationary, lower, upper)
-        if not rounds_left:
+        if tried and not np.any(np.abs(bore - tried[-1]) > 10.0**-digits * bore):
             break
+        found.append(bore)
+        if len(tried) > 1:
+            # A secant through the last two gains more than the digit of an iteration.
+            slope = (found[-1] - found[-2]) / (tried[-1] - tried[-2])
+            ahead = tried[-1] + (bore - tried[-1]) / (1.0 - slope)
+            bore = np.where(np.abs(slope) < _STEEPEST, np.clip(ahead, lower, upper), bore)
+        tried.append(bore)
         of_rim, height = _rim_height(inertia, outer_radius, bore, limits)
         squares = square + bore
         scale = squares**2 / (of_rim + limits.web * (bore**2 - square**2))

@@ -31,6 +31,8 @@ _NEWTON_STEPS = 12
 _LAST_STEP = 1e-9
 # Relative difference of radii that count as equal, so that limits meeting in a point admit a rim.
 _EQUAL = 1e-13
+# Last step, relative to the distance from a radius, after which iteration stays on its side of it.
+_SURELY = 0.5
 # Iterations for the cuts; each gains a digit, as cuts are at most an eighth of the section.
 _CUT_ROUNDS = 7
 
@@ -158,8 +160,13 @@ class _RequiredRim(NamedTuple):
         return _Crossing(np.sqrt(np.maximum(bore, 0.0)), np.sqrt(square))
 
 
-def smallest_radius(inertia: FloatArray, limits: RimLimits) -> FloatArray:
-    """Radius below which a wheel of a spin inertia is too tall, too thick or too heavy [m]."""
+def smallest_radius(
+    inertia: FloatArray, limits: RimLimits, near: FloatArray | None = None
+) -> FloatArray:
+    """Radius below which a wheel of a spin inertia is too tall, too thick or too heavy [m].
+
+    It is rough where it is below `near`, if given.
+    """
     wall, bore = np.asarray(limits.wall_min), np.asarray(limits.inner_radius_min)
     by_wall = np.maximum(bore + wall, wall / (1.0 - BORE_SHARE))
     crossings = [_RequiredRim.tall_and_narrow, _RequiredRim.tall_and_closed]
@@ -168,12 +175,17 @@ def smallest_radius(inertia: FloatArray, limits: RimLimits) -> FloatArray:
         crossings += [_RequiredRim.wide_and_heavy] if _has_bore_limit(limits) else []
     radius: FloatArray = np.maximum(by_wall, np.asarray(limits.outer_radius_min))
     for crossing in crossings:
-        radius = np.maximum(radius, _crossing_radius(crossing, inertia, limits))
+        radius = np.maximum(radius, _crossing_radius(crossing, inertia, limits, near, 1.0))
     return radius
 
 
-def largest_radius(inertia: FloatArray, limits: RimLimits) -> FloatArray:
-    """Radius above which a wheel of a spin inertia breaks, is too flat, or has no room [m]."""
+def largest_radius(
+    inertia: FloatArray, limits: RimLimits, near: FloatArray | None = None
+) -> FloatArray:
+    """Radius above which a wheel of a spin inertia breaks, is too flat, or has no room [m].
+
+    It is rough where it is above `near`, if given.
+    """
     stretch, (outer, inner) = np.asarray(limits.stretch_max), limits.hoop_weights
     by_bore = (stretch - inner * np.asarray(limits.inner_radius_min) ** 2) / outer
     by_share = stretch / (outer + inner * BORE_SHARE**2)
@@ -187,14 +199,22 @@ def largest_radius(inertia: FloatArray, limits: RimLimits) -> FloatArray:
         np.asarray(limits.outer_radius_max), np.sqrt(np.maximum(square, 0.0))
     )
     for crossing in crossings:
-        radius = np.minimum(radius, _crossing_radius(crossing, inertia, limits))
+        radius = np.minimum(radius, _crossing_radius(crossing, inertia, limits, near, -1.0))
     return radius
 
 
 def _crossing_radius(
-    crossing: Callable[[_RequiredRim], _Crossing], inertia: FloatArray, limits: RimLimits
+    crossing: Callable[[_RequiredRim], _Crossing],
+    inertia: FloatArray,
+    limits: RimLimits,
+    near: FloatArray | None,
+    sense: float,
 ) -> FloatArray:
-    """R at which two limits meet for a rim with cuts [m]."""
+    """R at which two limits meet for a rim with cuts [m].
+
+    It is rough where `sense` times the distance from it up to `near` is positive: each iteration
+    gains a digit, so that it stays on that side.
+    """
     cuts, per_volume = limits.cuts, np.pi * limits.density
     full, mass = 2.0 * inertia / per_volume, np.asarray(limits.mass_max) / per_volume
     rim = crossing(_RequiredRim(full, mass, limits))
@@ -203,7 +223,10 @@ def _crossing_radius(
         both = cuts.spread(*rim), cuts.area(*rim)
         spread, area = (np.where(np.isfinite(cut), cut, 0.0) for cut in both)
         last, rim = rim, crossing(_RequiredRim(full + spread, mass + area, limits))
-        if not np.any(np.abs(rim.outer - last.outer) > _EQUAL * rim.outer):
+        tolerance = _EQUAL * rim.outer
+        if near is not None:
+            tolerance = np.maximum(tolerance, _SURELY * sense * (near - rim.outer))
+        if not np.any(np.abs(rim.outer - last.outer) > tolerance):
             break
     return rim.outer
 

@@ -158,9 +158,9 @@ class OnRobot:
             if device is not None and criterion is not None and on_own_footing.incidence is None:
                 _, device = at_own_incidence(on_own_footing, device, criterion)
             # Earlier estimates had no mast; with it another drive may be needed, or none suffices.
-            device = device or lightest_by(on_own_footing, criterion)
+            device, winner = (device, None) if device else lightest_by(on_own_footing, criterion)
             try:
-                best = device or select_by(on_own_footing, criterion).best
+                best = device or select_by(on_own_footing, criterion, winner).best
             except Infeasible as error:
                 mount = format_quantity(on_own_footing.robot.mass - self.robot.mass, "kg", digits=4)
                 error.message = f"With a mount of {mount} on the trunk: {error.message}"
@@ -187,11 +187,12 @@ class OnRobot:
                 needs.
         """
         criterion, widest = self.criterion, problem
-        first = self.near and lightest_near(problem, self.near, criterion)
-        first = first or lightest_by(problem, criterion)
+        first, winner = self.near and lightest_near(problem, self.near, criterion), None
+        if first is None:
+            first, winner = lightest_by(problem, criterion)
         if first is not None:
             problem, first = self._converged_footing(problem, first)
-        nominal = select_by(problem, criterion).best if first is None else first
+        nominal = select_by(problem, criterion, winner).best if first is None else first
         reserve = reserve.computed_for(errors, problem, nominal)
         incidence_is_free, unreserved = problem.incidence is None and criterion is None, problem
         problem, widest = (
@@ -212,7 +213,8 @@ class OnRobot:
         # The first reserve was computed for a device without one, at that device's incidence:
         # where this device needs a larger one, it keeps that.
         for _ in range(_RESERVES_MAX if incidence_is_free else 0):
-            needs = errors.needs(unreserved, selection.best, reserve)
+            best = selection.best
+            needs = errors.needs(unreserved, best, reserve, errors.drawn(unreserved, best))
             if needs.reliability >= reserve.reliability:
                 break
             larger_reserve = reserve.covering(needs)

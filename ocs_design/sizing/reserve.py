@@ -93,7 +93,7 @@ class Reserve:
         """The reserve computed for a device that solves the problem without one."""
         if self.reliability <= NOMINAL or not problem.requirement.maneuvers:
             return self
-        return self.covering(errors.needs(problem, device, self))
+        return self.covering(errors.needs(problem, device, self, errors.drawn(problem, device)))
 
     def covering(self, needs: "ReserveNeeds") -> "Reserve":
         """The reserve with which enough of these robots pass."""
@@ -192,15 +192,20 @@ def reserve_record(
     """
     if not problem.requirement.maneuvers:
         return None
-    needs = errors.needs(problem, device, reserve)
+    drawn = errors.drawn(problem, device)
+    needs = errors.needs(problem, device, reserve, drawn)
     curve = {
         level: resized(replace(reserve, reliability=level).covering(needs))
         for level in RELIABILITIES
     }
     reliability = reserve.reliability
     present_mass = curve[reliability] if reliability in curve else resized(reserve.covering(needs))
+    # One quantity in turn is measured, so always at its mean.
     known = {
-        key: replace(errors, known=key).needs(problem, device, reserve) for key in _RELEVANT_KEYS
+        key: errors.needs(
+            problem, device, reserve, {**drawn, key: np.full_like(values, values.mean())}
+        )
+        for key, values in drawn.items()
     }
     level = max(reserve.reliability, RELIABILITY)
     reductions = {
@@ -258,7 +263,6 @@ class SampledErrors:
         trunk_mass: mass of the trunk alone, whose centre of mass is off [kg].
         pushes_off: whether jumps start on the ground.
         flight: flight time relative to a rigid robot's.
-        known: key of a quantity that is measured, so always at its mean; empty: none.
     """
 
     specified: UncertaintySection
@@ -267,7 +271,6 @@ class SampledErrors:
     trunk_mass: float
     pushes_off: bool
     flight: float
-    known: str = ""
 
     @classmethod
     def of(
@@ -293,20 +296,24 @@ class SampledErrors:
             knots = [getattr(spreads, key).at(knot) for knot in _KNOTS]
             parts = parts_of(key, device.layout.names)
             scores = np.stack([random.permutation(strata) for _ in parts], axis=1)
-            values = np.interp(scores, _KNOTS, knots)
-            values_by_key[key] = (
-                np.full_like(values, values.mean()) if key == self.known else values
-            )
+            values_by_key[key] = np.interp(scores, _KNOTS, knots)
         return values_by_key
 
-    def needs(self, problem: SelectionProblem, device: Candidate, reserve: Reserve) -> ReserveNeeds:
+    def needs(
+        self,
+        problem: SelectionProblem,
+        device: Candidate,
+        reserve: Reserve,
+        sampled_values: Mapping[str, FloatArray],
+    ) -> ReserveNeeds:
         """What the robots need of a device selected for the problem, and what it can do.
 
         The reserve's `scale` multiplies the deviations, its reliability sets the rates.
+        `sampled_values`: see `drawn`.
         """
         drawn = {
             key: mean + reserve.scale * (values - mean)
-            for key, values in self.drawn(problem, device).items()
+            for key, values in sampled_values.items()
             for mean in [values.mean(axis=0)]
         }
         # Voltage lines of all wheels as built: the law commands what the nominal motor can do,
@@ -330,8 +337,9 @@ class SampledErrors:
             _SampledManeuver.of(self, problem, device, maneuver, drawn) for maneuver in maneuvers
         ]
         rates = [each.covered_rates(deviations) for each in sampled]
-        achieved = np.array([each.achieved((0.0, 0.0)) for each in sampled])
-        with_rate = [each.achieved(rate) for each, rate in zip(sampled, rates, strict=True)]
+        achieved, with_rate = np.array(
+            [each.achieved(rate) for each, rate in zip(sampled, rates, strict=True)]
+        ).T
         factors = np.stack(
             [
                 each.factors(each.sweeps(line, reserve.reliability), factor)
@@ -341,7 +349,7 @@ class SampledErrors:
         )
         if reserve.scale > 1.0:
             # Simulated flights needed more than computed here, so factors below 1 are no margin.
-            unscaled = self.needs(problem, device, replace(reserve, scale=1.0))
+            unscaled = self.needs(problem, device, replace(reserve, scale=1.0), sampled_values)
             factors = factors / np.minimum(unscaled.at_reliability(reserve.reliability)[0], 1.0)
         return ReserveNeeds(
             factors=factors,
@@ -508,23 +516,29 @@ class _SampledManeuver:
         roll, pitch = np.where(covered, deviations * self.rates.std(axis=0), 0.0).tolist()
         return roll, pitch
 
-    def _task(self, rate: tuple[float, float]) -> WheelTask:
-        """The maneuver as designed, with these rates at its start."""
+    def _task(self, rate: tuple[float, float] = (0.0, 0.0)) -> WheelTask:
+        """The maneuver as designed, then the same with these rates at its start."""
         reserves = {self.maneuver.name: ManeuverReserve(1.0, rate)}
         requirement = replace(self.requirement, reserves=reserves)
         yaw_inertia, axes = np.array([[self.yaw_inertia]]), self.designed_axes[None, None]
+        both = [self.maneuver, self.maneuver]
         return wheel_task(
-            [self.maneuver], requirement, self.nominal, yaw_inertia, axes, with_rate=[True]
+            both, requirement, self.nominal, yaw_inertia, axes, with_rate=[False, True]
         )
 
-    def achieved(self, rate: tuple[float, float]) -> float:
-        """What the device can do, relative to the demand, by the selection's own formula."""
+    def achieved(self, rate: tuple[float, float]) -> list[float]:
+        """What the device can do, relative to the demand, by the selection's own formula.
+
+        Without a rate at the start, and with this one.
+        """
         demand = spin_demand(
             self._task(rate), self.device.line.reserved(), self.device.drive.armature
         )
         capacity = capability(demand, np.asarray(self.device.spin_inertia))
         # Beside a change of rate, a maneuver may ask for nothing.
-        return (capacity.sweep / demand.sweep).item() if demand.sweep.any() else np.inf
+        with np.errstate(invalid="ignore", divide="ignore"):
+            ratio = np.where(demand.sweep > 0.0, capacity.sweep / demand.sweep, np.inf)
+        return ratio.ravel().tolist()
 
     def _momentum_per_wheel(self, momentum: FloatArray) -> FloatArray:
         """Momentum of each wheel for a given momentum about roll and pitch, shape (robots, n).
@@ -540,10 +554,10 @@ class _SampledManeuver:
         if np.quantile(self.roll_rates, reliability) > self.roll_rate_max:
             # Larger wheels would not cancel the roll; that takes other wheels or another incidence.
             momentum = momentum - self.inertia * self.rates * [1.0, 0.0]
-        held, load = self._momentum_per_wheel(momentum), self._task((0.0, 0.0)).load()
+        held, load = self._momentum_per_wheel(momentum), self._task().load()
         load = replace(
             load,
-            initial_speed=np.asarray(load.initial_speed.item()),
+            initial_speed=np.asarray(load.initial_speed.flat[0]),
             one_way=bool(np.all(load.one_way)),
         )
         required = self._momentum_per_wheel(self.swept + momentum * self.duration)
@@ -551,7 +565,7 @@ class _SampledManeuver:
             sweep=np.abs(required),
             momentum=np.abs(held),
             duration=self.duration,
-            coupling=np.asarray(load.coupling.item()),
+            coupling=load.coupling[0],
             armature=np.asarray(self.device.drive.armature),
             least=np.zeros(1),
             drive=UnitDrive.of(*load.from_initial_speed(line.reserved(self.share))),
@@ -564,15 +578,24 @@ class _SampledManeuver:
 
         Required and possible sweeps are those of each wheel; the device achieves this factor.
         """
-        required, possible = sweeps
-        low, high = np.full(len(required), _FACTOR_MIN), np.full(len(required), _FACTOR_MAX)
+        # Robots last, as short last axes are slow.
+        required, possible, scale, bias, axes = (
+            np.ascontiguousarray(np.moveaxis(values, 0, -1))
+            for values in (
+                *sweeps,
+                self.tilt_left * self._controlled / self.inertia,
+                self.bias,
+                self.axes,
+            )
+        )
+        sense, robots = np.sign(required), required.shape[-1]
+        low, high = np.full(robots, _FACTOR_MIN), np.full(robots, _FACTOR_MAX)
         for _ in range(18):
             factor = np.sqrt(low * high)
-            missing = required - possible * (factor / achieved)[:, None]
-            missing = np.where(missing * np.sign(required) > 0.0, missing, 0.0)
-            short = (self.axes * missing[:, None]).sum(axis=2)
-            off = self.tilt_left * short / self.inertia * self._controlled - self.bias
-            level = (np.abs(off) <= LANDING_TOLERANCE).all(axis=1)
+            missing = required - possible * (factor / achieved)
+            missing = np.where(missing * sense > 0.0, missing, 0.0)
+            off = scale * (axes * missing).sum(axis=1) - bias
+            level = (np.abs(off) <= LANDING_TOLERANCE).all(axis=0)
             low, high = np.where(level, low, factor), np.where(level, factor, high)
         return high
 

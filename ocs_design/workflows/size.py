@@ -146,10 +146,13 @@ def design_ocs(
     wait_for_alternatives = wait_for_alternatives or start(placed.task, placed.designed.choice)
     device, runs = placed.designed.device, results.runs
     with staged_folder(folder, force=force) as staging:
+        film_remarks = _write_flights(placed, results, staging, steps)
+        control = control_of(specified, robot)
+        # Everything that does not depend on the alternatives, while other processes search them.
         with steps.step("export parts and robot files"):
-            # The model is released after the files are written: nothing refers to the subject.
             margins = record_margins(placed.resolved, placed.designed, runs, results.references)
             buildable = buildable_of(robot, placed.designed, margins, placed.mounting)
+            # The model is released after the files are written: nothing refers to the subject.
             remarks = export_formats(
                 replace(
                     Subject.of(robot, device, safe_name(robot.name)), refused=refusal(buildable)
@@ -158,39 +161,46 @@ def design_ocs(
                 staging,
             )
             robot = replace(robot, warnings=(*robot.warnings, *remarks))
-        film_remarks = _write_flights(placed, results, staging, steps)
+            design = replace(
+                record_design(
+                    robot,
+                    placed.resolved,
+                    placed.designed,
+                    margins=margins,
+                    buildable=buildable,
+                    mounting=placed.mounting,
+                    warnings=(
+                        *impossible_turns(placed, results.references),
+                        *placed.warnings,
+                        *film_remarks,
+                    ),
+                    seed=specified.seed or 0,
+                    package_paths=package_paths,
+                ),
+                validation=tuple(map(record_run, runs)),
+                control=control,
+                reality=uncertainty_texts(
+                    complete_uncertainty(
+                        placed.specification.reality, standing_height(robot), device.motor
+                    )
+                ),
+            )
+            # Bill of materials and assembly, which also report on the flights.
+            subject = Subject.of(robot, device, safe_name(robot.name)).recorded(design)
+            export_formats(
+                subject,
+                [file_format for file_format in USUAL_FORMATS if file_format.needs_margins],
+                staging,
+            )
         with steps.step("search lighter alternatives"):
             lighter, driving_maneuver = wait_for_alternatives()
-        trade_offs = _lighter_changes(placed, driving_maneuver, steps)
-        forget_collision_model()
-        control = control_of(specified, robot)
         design = replace(
-            record_design(
-                robot,
-                placed.resolved,
-                placed.designed,
-                margins=margins,
-                buildable=buildable,
-                mounting=placed.mounting,
-                warnings=(
-                    *impossible_turns(placed, results.references),
-                    *placed.warnings,
-                    *film_remarks,
-                ),
-                seed=specified.seed or 0,
-                package_paths=package_paths,
-            ),
-            validation=tuple(map(record_run, runs)),
-            control=control,
-            reality=uncertainty_texts(
-                complete_uncertainty(
-                    placed.specification.reality, standing_height(robot), device.motor
-                )
-            ),
+            design,
             alternatives=lighter,
             owed=driving_maneuver,
-            lighter=trade_offs,
+            lighter=_lighter_changes(placed, driving_maneuver, steps),
         )
+        forget_collision_model()
         if results.survival is not None:
             with steps.step("size a device that need not survive"):
                 mass_without = mass_without_survival(placed.task)
@@ -201,13 +211,6 @@ def design_ocs(
                 staging, flown_hash(design, control, design.requirement.detection)
             )
         with steps.step("write the report"):
-            # Bill of materials and assembly, which also report on the flights.
-            subject = Subject.of(robot, device, safe_name(robot.name)).recorded(design)
-            export_formats(
-                subject,
-                [file_format for file_format in USUAL_FORMATS if file_format.needs_margins],
-                staging,
-            )
             design = _write_report(design, subject, runs, staging, command)
         (staging / DESIGN_FILE).write_bytes(to_json(design))
     return Outcome(design, folder, robot, device, runs)

@@ -8,7 +8,6 @@ from functools import lru_cache
 from math import pi
 
 import numpy as np
-from scipy.ndimage import maximum_filter
 
 from ocs_design.common.arrays import FloatArray, frozen
 from ocs_design.parts.carrier_plate import TOUCH, CarrierPlate
@@ -59,6 +58,9 @@ def front_of(back: HeightMap, half: float, low: float, high: float) -> FloatArra
     if not np.isfinite(trunk).all():
         return None
     corners = trunk[::_SAMPLES_PER_CELL, ::_SAMPLES_PER_CELL]
+    # Few trunks need such a block, and the import takes a tenth of a second.
+    from scipy.ndimage import maximum_filter  # noqa: PLC0415
+
     # Between grid points a bulging trunk is higher: they move back by the most of adjacent cells.
     bulge = trunk - _interpolated(corners, half, (low, high), left, up)
     highest = maximum_filter(bulge, 2 * _SAMPLES_PER_CELL + 1, mode="constant")[

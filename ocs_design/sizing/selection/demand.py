@@ -39,6 +39,19 @@ class Margins(NamedTuple):
     improved: FloatArray
 
 
+class _AtAngle(NamedTuple):
+    """Devices at angles of their layout, shapes (n, k, ...): inertia, I_zz [kg m^2] and axes."""
+
+    inertia: TiltInertia
+    yaw_inertia: FloatArray
+    axes: FloatArray
+
+    @classmethod
+    def of(cls, composite: CompositeInertia, angle: FloatArray) -> "_AtAngle":
+        """Devices of these composite inertias at angles [rad], shape (n, k)."""
+        return cls(*composite.at(angle), composite.layout.axes(angle))
+
+
 def margins_of(
     requirement: Requirement,
     drives: Drives,
@@ -60,7 +73,7 @@ def margins_of(
     spin, with_rate = spin_inertia[:, None], bool(requirement.reserves)
 
     def margins_at(
-        maneuvers: Sequence[Maneuver], at: FloatArray, *, with_rate: bool
+        maneuvers: Sequence[Maneuver], device: _AtAngle, *, with_rate: bool
     ) -> list[Margins]:
         """Margins of each maneuver, and with a rate also of each starting with its reserve's."""
         if not maneuvers:
@@ -68,10 +81,7 @@ def margins_of(
         # All at once: for few candidates, a NumPy call costs more than its work.
         have_rate = [False] * len(maneuvers) + [True] * (len(maneuvers) * with_rate)
         cases = [*maneuvers, *maneuvers] if with_rate else maneuvers
-        inertia, yaw_inertia = composite.at(at)
-        task = wheel_task(
-            cases, requirement, inertia, yaw_inertia, composite.layout.axes(at), with_rate=have_rate
-        )
+        task = wheel_task(cases, requirement, *device, with_rate=have_rate)
         demand = spin_demand(task, columns(drives.line), drives.armature[:, None])
         capacity = capability(demand, spin)
         improved = newton_step(demand, spin, capacity)
@@ -80,31 +90,31 @@ def margins_of(
         return [Margins(*both) for both in zip(margin, improved, strict=True)]
 
     at_design, at_own = list[Margins](), list[Margins]()
+    as_designed = _AtAngle.of(composite, angle)
     unspecified = [maneuver for maneuver in requirement.maneuvers if maneuver.incidence is None]
     for headed in (False, True):
         maneuvers = [maneuver for maneuver in unspecified if maneuver.has_heading_demand == headed]
         at_design += margins_at(
-            maneuvers, angle, with_rate=requirement.incidence_is_free and with_rate
+            maneuvers, as_designed, with_rate=requirement.incidence_is_free and with_rate
         )
     if requirement.rate_change is not None:
-        axes = composite.layout.axes(angle)[..., :2, :]
-        inertia, _ = composite.at(angle)
         one_stops = requirement.detection is not None
         needed = rate_change_spin_inertia(
-            requirement.rate_change, drives, inertia, axes, one_stops=one_stops
+            requirement.rate_change,
+            drives,
+            as_designed.inertia,
+            as_designed.axes[..., :2, :],
+            one_stops=one_stops,
         )
         at_design.append(Margins(spin / needed, needed))
     for maneuver in requirement.maneuvers:
-        angles = angle
+        device = as_designed
         if maneuver.incidence is not None:
-            angles = np.full((len(drives), 1), maneuver.incidence)
-            at_own += margins_at([maneuver], angles, with_rate=with_rate)
+            device = _AtAngle.of(composite, np.full((len(drives), 1), maneuver.incidence))
+            at_own += margins_at([maneuver], device, with_rate=with_rate)
         reserve = requirement.reserve(maneuver)
         if reserve.roll > 0.0:
-            inertia, yaw_inertia = composite.at(angles)
-            momentum = roll_cancelling_momentum(
-                reserve.roll, inertia, yaw_inertia, composite.layout.axes(angles), requirement
-            )
+            momentum = roll_cancelling_momentum(reserve.roll, *device, requirement)
             needed = momentum / drives.top_speed[:, None]
             with np.errstate(divide="ignore"):
                 margins = Margins(spin / needed, needed)

@@ -222,7 +222,7 @@ def fixed_point(
         spin_inertia=spin,
         radius=radius,
         angle=design.angle,
-        shapes=candidates.shapes_at(spin, radius),
+        shapes=shapes if solved.all() else candidates.shapes_at(spin, radius),
         feasible=solved,
         margin=np.where(solved, step.margin, best_margin),
         residual=residual,

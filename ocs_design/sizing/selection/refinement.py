@@ -5,10 +5,10 @@ for which every part of the requirement is met on the robot with the device; Sci
 (docs/theory.md, The selection: Refinement and Prices of the limits).
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass
-from functools import cache, lru_cache
+from functools import cache, cached_property, lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -175,7 +175,7 @@ class Programme:
 
         Where a spin inertia is specified, the first constraint is an equality.
         """
-        candidates, shapes = self.candidates.repeat(len(points)), self._shapes(points)
+        candidates, shapes = self._copies(len(points)), self._shapes(points)
         spin, composite = self._on_robot(candidates, shapes)
         requirement = candidates.problem.requirement
         at_design, at_own = margins_of(
@@ -202,6 +202,11 @@ class Programme:
         if requirement.spin_inertia is not None:
             limits = np.concatenate([np.log(spin / requirement.spin_inertia)[None], limits])
         return np.log(candidates.drives.mass + shapes.mass), limits.T
+
+    @cached_property
+    def _copies(self) -> Callable[[int], Candidates]:
+        """Makes copies of the candidate, whose drives and limits are then computed only once."""
+        return cache(self.candidates.repeat)
 
     def evaluation(self, point: FloatArray, low: FloatArray, high: FloatArray) -> _Evaluation:
         """The programme at a point, with all points of the central differences in one call.

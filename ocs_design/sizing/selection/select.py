@@ -158,8 +158,13 @@ def select_by(
     )
 
 
-def lightest_by(problem: SelectionProblem, criterion: Criterion | None) -> Candidate | None:
-    """The lightest device alone, unrefined; None: the full selection must decide."""
+def lightest_by(
+    problem: SelectionProblem, criterion: Criterion | None
+) -> tuple[Candidate | None, Candidate | None]:
+    """The lightest device alone, unrefined; None: the full selection must decide.
+
+    The second is that of the same parts at the incidence for the robot alone (`select_by`).
+    """
     problem.check()
     is_specified = problem.incidence is not None
     at_angle = (
@@ -167,11 +172,11 @@ def lightest_by(problem: SelectionProblem, criterion: Criterion | None) -> Candi
     )
     state = search(at_angle, ranked=False)
     if not state.ranking:
-        return None
+        return None, None
     device = device_of(state.devices[0])
     if is_specified or criterion is None:
-        return device
-    return at_own_incidence(problem, device, criterion)[1]
+        return device, device
+    return at_own_incidence(problem, device, criterion)[1], device
 
 
 def lightest_below(problem: SelectionProblem, mass_max: float) -> Candidate | None:
@@ -212,7 +217,8 @@ def at_own_incidence(
         # The device's inertia hardly changes with the incidence: the slope is about -1.
         angle -= change / (slope if -2.0 < slope < -0.5 else -1.0)
         # Start from its own radius each time: a radius changed at one incidence would not return.
-        turned = device_at(problem, winner, min(max(angle, 0.0), pi / 2.0))
+        start = replace(winner, spin_inertia=device.spin_inertia)
+        turned = device_at(problem, start, min(max(angle, 0.0), pi / 2.0))
         if turned is None:
             # Infeasible with these parts; the full selection decides about others.
             return angle, None
