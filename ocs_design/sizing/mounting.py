@@ -347,8 +347,8 @@ def _clearance(candidates: Iterable[Nearest | None]) -> Clearance | None:
     known = [candidate for candidate in candidates if candidate is not None]
     if not known:
         return None
-    # To a micrometre: rounding must not choose between the two sides of a symmetric robot.
-    nearest = min(known, key=lambda candidate: round(candidate.distance, 6))
+    # To a nanometre: rounding must not choose between the two sides of a symmetric robot.
+    nearest = min(known, key=lambda candidate: round(candidate.distance, 9))
     return Clearance(nearest.part.name, nearest.distance)
 
 
