@@ -353,5 +353,6 @@ def lightest_device(task: Task) -> FrontDevice:
         motor=best.motor.name,
         gear=best.gear.name,
         material=best.material.name,
+        rim_mass=best.flywheel.rim_mass,
         overvoltage=designed.device.motor.overvoltage,
     )

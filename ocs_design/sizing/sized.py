@@ -12,6 +12,7 @@ from ocs_design.common.records import recorded
 from ocs_design.device.device import Device
 from ocs_design.device.layout import Criterion, incidence_by_criterion
 from ocs_design.device.records.selection import CoDesignRecord, ReserveRecord, SizingRecord
+from ocs_design.parts.joints import OVERSPEED
 from ocs_design.requirement.bound import AXES, SpinDemand, rate_momenta
 from ocs_design.requirement.requirement import Requirement
 from ocs_design.robot.mass import MassProperties
@@ -126,7 +127,8 @@ def _shadow_prices(problem: SelectionProblem, chosen: Candidate) -> dict[str, fl
     Central differences of the closed form; one-sided where only one side is feasible.
     """
     rim_inertia = chosen.spin_inertia - chosen.drive.rotor_inertia - chosen.hub_share
-    rim = RimProblem(rim_inertia, problem.envelope, chosen.material, chosen.overspeed)
+    speed = OVERSPEED * float(chosen.line.top_speed)
+    rim = RimProblem(rim_inertia, problem.envelope, chosen.material, speed)
     limits = chosen.limits
     shell, prices = chosen.shell, {}
     for name in chosen.binding:

@@ -101,7 +101,7 @@ def test_no_ring_on_a_grid_is_lighter():
     assert lightest == pytest.approx(best, rel=1e-5)
     assert lightest <= best * (1.0 + 1e-12)
     # The chosen ring may be smaller: it is then closer to the robot, and needs less inertia.
-    chosen_mass = chosen.rim_mass + float(
+    chosen_mass = chosen.flywheel.rim_mass + float(
         shell.mass(*map(np.array, (chosen.outer_radius, chosen.height)))
     )
     assert lightest <= chosen_mass * (1.0 + 1e-12)

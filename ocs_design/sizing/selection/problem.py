@@ -175,8 +175,6 @@ class Candidate(DrivenWheel):
     Attributes:
         incidence: of the wheel axes [rad].
         spin_inertia: of each wheel, the rotor's share included [kg m^2].
-        rim_mass: of one module [kg].
-        overspeed: speed at which the hoop stress is limited [rad/s].
         limits: of its rim.
         problem: that it solves.
         demands: of all parts of the requirement; empty until computed.
@@ -189,8 +187,6 @@ class Candidate(DrivenWheel):
 
     incidence: float
     spin_inertia: float
-    rim_mass: float
-    overspeed: float
     limits: RimLimits
     problem: SelectionProblem
     demands: tuple[TaskDemand, ...] = ()
@@ -295,12 +291,7 @@ class Candidate(DrivenWheel):
     @property
     def wheel_mass(self) -> float:
         """Mass of one wheel: rim, web and hub [kg]."""
-        return self.rim_mass + self.web_mass
-
-    @property
-    def web_mass(self) -> float:
-        """Mass of one wheel's web with its hub [kg]."""
-        return self.wheel.mass - self.rim_mass
+        return self.wheel.mass
 
     @property
     def binding_maneuver(self) -> str:

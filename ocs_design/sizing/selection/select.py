@@ -308,8 +308,6 @@ def device_of(solved: Solved) -> Candidate:
         web_material=problem.web_material,
         incidence=float(solved.point.angle[0]),
         spin_inertia=float(solved.point.spin_inertia[0]),
-        rim_mass=float(shape.rim_mass),
-        overspeed=float(drives.overspeed[0]),
         limits=limits,
         problem=problem,
         binding=binding_limits(shape, limits, problem.envelope),

@@ -311,7 +311,6 @@ def with_wheels(
             outer_radius=float(shape.outer_radius),
             height=float(shape.height),
             spin_inertia=float(spin_inertias[row]),
-            rim_mass=float(shape.rim_mass),
             binding=binding_limits(shape, limits, problem.envelope),
         )
 
