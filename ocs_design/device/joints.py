@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from math import floor
+from math import ceil, floor, inf, sqrt
 
 from ocs_design.actuation.fasteners import LIGAMENT, BoltedJoint, Fastening, longest_within, screw
 from ocs_design.actuation.motor import DIRECT
@@ -51,7 +51,7 @@ from ocs_design.parts.printed import (
 )
 from ocs_design.parts.tightening import MotorGrip, motor_grips
 from ocs_design.parts.turning_rings import Ring, TurningRings, holed_peaks
-from ocs_design.parts.web_bending import bent_web
+from ocs_design.parts.web_bending import BentWeb, bent_web
 from ocs_design.parts.wheel import Flywheel, Web
 
 RIM_JOINT, SHAFT_JOINT, MOUNT_JOINT = "rim joint", "shaft joint", "motor mount"
@@ -59,6 +59,9 @@ WHEEL_STRESS = "largest stress of the wheel"
 
 FOOT_SHOCK, FLOOR_SHOCK = "landing shock, foot", "landing shock, cage"
 WEB_SHOCK = "landing shock, web"
+
+WEB_STEP = 0.5e-3
+"""Step of the thickness of webs [m]."""
 SCREWS_SHOCK = "landing shock, screws in the trunk"
 
 BEARING_MOMENT = "bearing moment"
@@ -211,19 +214,18 @@ def _shocks(device: Device) -> Iterator[Margin]:
             yield Margin(FLOOR_SHOCK, SHOCK, capacity, "m/s2", note=note)
 
 
-def _web_shock(device: Device) -> Iterator[Margin]:
-    """Acceleration along its axis that a spinning wheel withstands on its web.
+def _bent_web(device: Device) -> tuple[float, BentWeb] | None:
+    """Strength of a wheel's web that `SHOCK` may use [Pa], and its bending by `SHOCK`.
 
-    The web has what spinning at top speed, or the shrink fit, leaves of its strength; and the rim
-    must not touch its housing.
+    Spinning at top speed, or a shrink fit, uses the rest. None where material data are unknown.
     """
     wheel, rings, fit = device.flywheel, wheel_rings(device.flywheel), rim_fit(device)
     web = wheel.web
     if web is None or rings is None or (fit is None and web.material != wheel.material):
-        return
+        return None
     metal, (hub, disc, rim) = material(web.material), rings
     if metal.yield_strength is None:
-        return
+        return None
     spun = TurningRings.of(rings, device.motor.top_speed).peak(1) if fit is None else fit.stress_web
     bent = bent_web(
         SHOCK * wheel.mass,
@@ -233,17 +235,46 @@ def _web_shock(device: Device) -> Iterator[Margin]:
         poisson_ratio=disc.poisson_ratio,
         holes=web.holes,
     )
-    yields, touches = (metal.yield_strength - spun) / bent.stress, CLEARANCE / bent.deflection
+    return max(metal.yield_strength - spun, 0.0), bent
+
+
+def least_web_thickness(device: Device) -> float:
+    """Thickness of a wheel's web that bears `SHOCK`, in steps of half a millimetre [m].
+
+    0 if there is none to compute; at most the hub's height. Stress falls with the square of the
+    thickness, deflection with its cube.
+    """
+    found, web = _bent_web(device), device.flywheel.web
+    if found is None or web is None:
+        return 0.0
+    left, bent = found
+    thicker = max((bent.deflection / CLEARANCE) ** (1.0 / 3.0), 1.0)
+    thicker = max(sqrt(bent.stress / left), thicker) if left > 0.0 else inf
+    if thicker == 1.0:
+        return web.thickness
+    most = floor(web.hub.height / WEB_STEP + 1e-6)
+    steps = most if thicker == inf else min(ceil(thicker * web.thickness / WEB_STEP - 1e-6), most)
+    return max(WEB_STEP * steps, web.thickness)
+
+
+def _web_shock(device: Device) -> Iterator[Margin]:
+    """Acceleration along its axis that a spinning wheel withstands on its web.
+
+    The web must not yield, nor its rim touch the housing.
+    """
+    found = _bent_web(device)
+    if found is None:
+        return
+    left, bent = found
+    yields, touches = left / bent.stress, CLEARANCE / bent.deflection
     end = "its web yields" if yields < touches else "its rim touches the housing"
-    shock, moved = (
-        f"{SHOCK / STANDARD_GRAVITY:.0f} g",
-        format_quantity(bent.deflection, "mm", digits=2),
-    )
+    shock = f"{SHOCK / STANDARD_GRAVITY:.0f} g"
+    moved = format_quantity(bent.deflection, "mm", digits=2)
     note = (
         f"a shock of {shock} on a wheel at top speed, along its axis, until {end}; at {shock} the "
         f"rim moves by {moved}"
     )
-    yield Margin(WEB_SHOCK, SHOCK, SHOCK * max(min(yields, touches), 0.0), "m/s2", note=note)
+    yield Margin(WEB_SHOCK, SHOCK, SHOCK * min(yields, touches), "m/s2", note=note)
 
 
 def wheel_rings(wheel: Flywheel) -> tuple[Ring, ...] | None:

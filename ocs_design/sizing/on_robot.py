@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 from ocs_design.common.errors import Constraint, Infeasible
 from ocs_design.common.units import format_quantity
 from ocs_design.device.device import Device
-from ocs_design.device.joints import burst_of
+from ocs_design.device.joints import burst_of, least_web_thickness
 from ocs_design.device.layout import Criterion
 from ocs_design.parts.cage import floor_at_shock
 from ocs_design.parts.foot import plate_thickness
@@ -151,6 +151,7 @@ class OnRobot:
             same = (
                 on_own_footing.place == on_footing.place
                 and on_own_footing.foot_plate == on_footing.foot_plate
+                and on_own_footing.web_thickness == on_footing.web_thickness
             )
             if same and change <= _CONVERGED * best.mass:
                 break
@@ -248,7 +249,7 @@ class OnRobot:
         return lightest_near(mounted.unreserved, mounted.nominal, self.criterion) or mounted.nominal
 
     def _own_footing(self, problem: SelectionProblem, best: Candidate) -> SelectionProblem:
-        """The problem for the plate, the place and the feet of this device."""
+        """The problem for the plate, the place, the feet and the web of this device."""
         device = best.device
         cage, feet = device.mount.cage, device.foot_plate
         floor = (
@@ -261,7 +262,12 @@ class OnRobot:
         footing = self.footing(device, problem) or Footing(problem.place, None)
         carried = footing.added_to(self.robot.mass_properties)
         place = problem.place if problem.place.specified else footing.place
-        return replace(problem, robot=carried, place=place, foot_plate=feet)
+        # A thicker web leaves a lighter rim, so webs only grow.
+        web = device.flywheel.web
+        thin = problem.web_thickness if web is None else web.thickness
+        least_web = max(least_web_thickness(device), thin)
+        mounted = replace(problem, robot=carried, place=place, foot_plate=feet)
+        return replace(mounted, least_web=least_web)
 
     def in_rings(
         self, problem: SelectionProblem, best: Candidate
@@ -297,6 +303,7 @@ class OnRobot:
             walls = (
                 with_own_rings.guard_wall == best.problem.guard_wall
                 and with_own_rings.foot_plate == best.problem.foot_plate
+                and with_own_rings.web_thickness == best.problem.web_thickness
             )
             converged = with_own_rings.place == ringed_problem.place and walls
             if converged and change <= _CONVERGED * best.mass:

@@ -10,7 +10,14 @@ from wheels import EC45, PAPER_WHEEL, driven_device
 from ocs_design.actuation.fasteners import BoltCircle, screw
 from ocs_design.actuation.motor import Face, Mounting, ShaftForm
 from ocs_design.catalogue.materials import material
-from ocs_design.device.joints import balance_of, joints_of, rim_fit, wheel_rings, yield_margin
+from ocs_design.device.joints import (
+    balance_of,
+    joints_of,
+    least_web_thickness,
+    rim_fit,
+    wheel_rings,
+    yield_margin,
+)
 from ocs_design.device.resonances import resonances_of
 from ocs_design.export.device_parts import printed_parts
 from ocs_design.export.meshes import part_manifold
@@ -127,6 +134,27 @@ def test_the_web_withstands_a_landing_at_top_speed_without_touching_the_housing(
     # A wide web of a strong steel gives before it yields.
     wide = replace(light, flywheel=replace(light.flywheel, inner_radius=0.25, outer_radius=0.26))
     assert "its rim touches the housing" in joints_by_name(wide)["landing shock, web"].note
+
+
+def test_webs_are_as_thick_as_a_landing_needs_them():
+    """Stress falls with the square of the thickness, to the next half millimetre, up to the hub's
+    5 mm."""
+    assert least_web_thickness(device(mass=0.1)) == WEB_THICKNESS
+    for mass in (0.5, 1.5, 3.0):
+        heavy = device(mass=mass)
+        thickness = least_web_thickness(heavy)
+        margins = [
+            joints_by_name(with_web(heavy, web))["landing shock, web"].margin
+            for web in (thickness, thickness - 0.5e-3)
+        ]
+        assert margins[0] >= 1.0 > margins[1] or thickness == WEB_THICKNESS
+        assert round(2e3 * thickness, 9) % 1.0 == 0.0
+    assert least_web_thickness(device(mass=200.0)) == pytest.approx(HUB.height)
+
+
+def with_web(device, thickness):
+    web = replace(device.flywheel.web, thickness=thickness)
+    return replace(device, flywheel=replace(device.flywheel, web=web))
 
 
 def test_a_rim_on_another_web_is_shrunk_on():

@@ -46,9 +46,10 @@ def test_buildable_is_decided_as_far_as_it_is_known(motor, mounting, demand, yes
             Margin("motor mount", 135.0, 134.0, "N m", note="filled with epoxy"),
             "threads in its stator",
         ),
+        (Margin("landing shock, web", 196.1, 195.0, "m/s2"), "--r-max"),
     ],
 )
-def test_a_mount_that_does_not_hold_is_an_open_point(joint, cure):
+def test_mounts_and_webs_that_do_not_hold_are_open_points(joint, cure):
     held = replace(joint, capacity=joint.demand)
     assert buildable(KNOWN_MOTOR, FREE, (), (held,)).yes is True
     result = buildable(KNOWN_MOTOR, FREE, (), (joint,))

@@ -159,6 +159,7 @@ def limits_with_web(
     web_density: float | FloatArray | None = None,
     rim_height_min: float | FloatArray = 0.0,
     *,
+    web_thickness: float | None = None,
     lightened: float | FloatArray = 0.0,
     lightened_bore: float | FloatArray = 0.0,
     stretch_left: float | FloatArray = 1.0,
@@ -172,18 +173,19 @@ def limits_with_web(
         limits: of the rims alone. hub_radius: [m].
         web_density: of web and hub [kg/m^3]; None: in one piece with the rim.
         rim_height_min: least height with room for the hub's screws (`rim_height_min`) [m].
+        web_thickness: [m]; None: the default.
         lightened: fraction of the web that holes remove (`Hub.lightened`).
         lightened_bore: least bore with room for them (`Hub.bore_min`) [m].
         stretch_left: fraction of the allowed hoop stress at which the holes do not yield.
     """
     spread = spread_left(np.asarray(lightened, dtype=np.float64))
-    web = np.full_like(np.asarray(limits.density, dtype=np.float64), WEB_THICKNESS)
-    seated = np.maximum(WEB_THICKNESS + 2.0 * cuts.chamfer + STEP, cuts.height_min)
+    if web_thickness is None:
+        web_thickness = WEB_THICKNESS if web_density is None else SHRUNK_WEB_THICKNESS
+    web = np.full_like(np.asarray(limits.density, dtype=np.float64), web_thickness)
+    seated = np.maximum(web_thickness + 2.0 * cuts.chamfer + STEP, cuts.height_min)
     if web_density is not None:
-        web = SHRUNK_WEB_THICKNESS * web_density / np.asarray(limits.density)
-        band = SHRUNK_WEB_THICKNESS + 2.0 * cuts.chamfer + STEP
-        shoulder = np.maximum(SHRUNK_WEB_THICKNESS, web) + SHOULDER
-        seated = np.maximum(np.maximum(seated, band), shoulder)
+        web = web_thickness * web_density / np.asarray(limits.density)
+        seated = np.maximum(seated, np.maximum(web_thickness, web) + SHOULDER)
     around = np.maximum(hub_radius + LIGAMENT, lightened_bore)
     return replace(
         limits,

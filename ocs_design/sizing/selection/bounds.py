@@ -114,6 +114,7 @@ class RimFloor:
                 narrow,
                 problem.cuts,
                 None if problem.web_material is None else problem.web_material.density,
+                web_thickness=problem.web_thickness,
                 lightened=np.repeat(solid_shares, materials * _RIMS),
             )
         room = problem.envelope

@@ -22,7 +22,7 @@ from ocs_design.parts.module import Printed, gear_moments, moments_at_floor, mom
 from ocs_design.parts.moments import MassMoments, round_body
 from ocs_design.parts.motor_mount import mount_of
 from ocs_design.parts.printed import CLEARANCE, PANEL, WALL, half_height
-from ocs_design.parts.rim import NO_HUB, cylinder_transverse_inertia
+from ocs_design.parts.rim import NO_HUB, WEB_THICKNESS, cylinder_transverse_inertia
 from ocs_design.sizing.bound.rim_problem import (
     OFF_THE_EDGE,
     RimLimits,
@@ -105,6 +105,7 @@ class Candidates(Table):
                 problem.cuts,
                 None if problem.web_material is None else problem.web_material.density,
                 hub.rim_height,
+                web_thickness=problem.web_thickness,
                 lightened=hub.lightened,
                 lightened_bore=hub.lightened_bore,
                 stretch_left=stretch_beside_holes(
@@ -314,7 +315,8 @@ def drives_of(
     if not problem.web:
         return drives
     radius = np.maximum(drives.hub.radius, drives.seat.head_reach)
-    height = np.maximum(drives.hub.rim_height, drives.seat.heads_rim_height)
+    heads = drives.seat.heads_rim_height + (problem.web_thickness - WEB_THICKNESS)
+    height = np.maximum(drives.hub.rim_height, heads)
     return replace(drives, hub=replace(drives.hub, radius=radius, rim_height=height))
 
 

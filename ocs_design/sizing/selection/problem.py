@@ -54,6 +54,7 @@ class SelectionProblem:
         lightenings: numbers of holes in a web to choose from, 0 for a solid one.
         guard_wall: wall thickness of the steel rings in the housings [m]; 0: none.
         foot_plate: thickness of the feet's plates [m].
+        least_web: least thickness of webs, if the default is too thin for a landing [m].
         formed: whether a mast may stand on a block shaped to the trunk.
     """
 
@@ -74,6 +75,7 @@ class SelectionProblem:
     lightenings: Sequence[int] = (0,)
     guard_wall: float = 0.0
     foot_plate: float = PLATE_THICKNESS
+    least_web: float = 0.0
     layout: Layout = PAIR
     formed: bool = False
 
@@ -90,7 +92,8 @@ class SelectionProblem:
     @property
     def web_thickness(self) -> float:
         """Thickness of their webs [m]."""
-        return WEB_THICKNESS if self.web_material is None else SHRUNK_WEB_THICKNESS
+        usual = WEB_THICKNESS if self.web_material is None else SHRUNK_WEB_THICKNESS
+        return max(usual, self.least_web)
 
     def hub(self, motor: Motor, gear: Gear, lightening: int) -> Hub | None:
         """Hub of a wheel on this motor with this gear; None: massless spokes.
