@@ -85,6 +85,27 @@ class FroudeScale:
         return float(f"{(self.pitch_inertia / sqrt(self.length)) ** 0.2:.6g}")
 
 
+@dataclass(frozen=True)
+class Gains:
+    """Gains of the attitude error per unit of inertia: `stiffness` [1/s^2], `damping` [1/s]."""
+
+    stiffness: float
+    damping: float
+
+
+PAPER_GAINS = Gains(stiffness=60.0, damping=12.0)
+"""K_p and K_d of Solo12, from which those of other robots are scaled unless specified."""
+
+
+def wheel_gains(robot: Robot, *, kp: float | None = None, kd: float | None = None) -> Gains:
+    """Gains as specified, or those of Solo12 with times Froude-scaled to the robot.
+
+    `K_p ~ 1/T^2`, `K_d ~ 1/T`.
+    """
+    time = FroudeScale.of(robot).time(STANDARD_GRAVITY)
+    return Gains(kp or PAPER_GAINS.stiffness / time**2, kd or PAPER_GAINS.damping / time)
+
+
 def _ratio(figure: float, reference: float) -> float:
     """`figure / reference` to six digits: postures are solved to nine, and Solo12 must give 1."""
     return float(f"{figure / reference:.6g}")

@@ -12,6 +12,7 @@ from math import inf, nan
 from typing import Annotated, Any, ClassVar, Self, TypeAlias
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.common.arrays import FloatArray
@@ -43,6 +44,8 @@ class Slew:
         initial_speed: initial speed of all wheels, in the direction of swept and momentum [rad/s].
         one_way: whether the wheels do not really return to that speed, as gravity acts in place of
             the turn's way back.
+        yaw: momentum about the vertical, which turns the trunk meanwhile [N m s]. What the wheels
+            hold stays where it is in space, at every heading that is passed.
     """
 
     swept: FloatArray
@@ -50,6 +53,15 @@ class Slew:
     duration: float
     initial_speed: float = 0.0
     one_way: bool = False
+    yaw: FloatArray | float = 0.0
+
+    def headings(self, yaw_inertia: ArrayLike, count: int) -> FloatArray:
+        """Headings passed from start to end, at equal distances [rad], shape (..., count).
+
+        `yaw_inertia`: I_zz of the whole [kg m^2], shape (...).
+        """
+        rate = self.yaw / np.asarray(yaw_inertia, dtype=np.float64)
+        return np.multiply.outer(rate * self.duration, np.linspace(0.0, 1.0, count))
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,6 +100,7 @@ class Maneuver(ABC):
         estimate: factor on the closed-form demand of a kind that is `estimated`.
         standing_height: of the trunk above the ground, the robot on its feet [m]; nan: not known
             yet.
+        direct: whether the wheels can act about the vertical.
         on_pivot: whether the robot is on a point or an edge of its trunk, its joints locked.
         on_feet: whether it is on its feet from start to end; otherwise it flies or floats.
         foreseen: whether its trajectory can be planned; otherwise feedback alone meets it.
@@ -107,6 +120,7 @@ class Maneuver(ABC):
     ] = None
     estimate: float = 1.0
     standing_height: float = nan
+    direct: bool = False
 
     on_pivot: ClassVar[bool] = False
     on_feet: ClassVar[bool] = False
@@ -218,9 +232,8 @@ class Maneuver(ABC):
         return None
 
     def with_wheels(self, *, direct: bool) -> Self:
-        """The maneuver for wheels that act about the vertical or not, where it depends on that."""
-        del direct
-        return self
+        """The maneuver for wheels that act about the vertical or not."""
+        return replace(self, direct=direct)
 
     def freedom(self, body: MassProperties) -> Freedom:
         """How a body is free to turn."""

@@ -84,12 +84,28 @@ class Unforeseen(Maneuver):
             np.broadcast_to(0.5 * self.duration * momentum, shape),
             np.broadcast_to(momentum, shape),
             self.time_left,
+            yaw=0.0 if self.direct else self._yaw_impulse,
         )
+
+    @property
+    def has_heading_demand(self) -> bool:
+        """Whether the wheel law stops a yaw that the torque leaves."""
+        return self.direct and bool(self._yaw_impulse)
+
+    def heading(self, inertia: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Demand of stopping the yaw, as about roll and pitch; see `Maneuver.heading`."""
+        momentum = np.full_like(inertia, self._yaw_impulse)
+        return 0.5 * self.duration * momentum, momentum
 
     @property
     def zero_demand(self) -> str:
         """Words for a torque without roll and pitch; empty: it has one of them."""
         return "" if any(self.torque[:2]) else "torque about roll and pitch is 0"
+
+    @property
+    def _yaw_impulse(self) -> float:
+        """Angular impulse about the vertical [N m s]; 0 on feet, which hold the heading."""
+        return 0.0 if self.on_feet else self.torque[2] * self.duration
 
     @property
     def _impulse(self) -> FloatArray:
@@ -145,9 +161,10 @@ class Disturbance(Unforeseen):
 
     def as_built(self, slew: Slew, built: Built) -> Slew:
         """Slew of robots as built: an offset changes the lever and angular impulse of a force."""
-        turned = -np.cross(built.offset, self.impulse)[:, :2]
-        swept = slew.swept + 0.5 * self.duration * turned
-        return replace(slew, swept=swept, momentum=slew.momentum + turned)
+        turned = -np.cross(built.offset, self.impulse)
+        swept = slew.swept + 0.5 * self.duration * turned[:, :2]
+        momentum, yaw = slew.momentum + turned[:, :2], slew.yaw + turned[:, 2]
+        return replace(slew, swept=swept, momentum=momentum, yaw=yaw)
 
     @property
     def momentum_of_body(self) -> FloatArray | None:

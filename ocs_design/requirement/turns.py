@@ -253,8 +253,7 @@ def loop_length(heading: float) -> float:
 class TurnTo(TimedTurn):
     """A turn of the trunk in a vertical jump, from level to any attitude, heading included.
 
-    Attributes:
-        direct: whether the wheels can act about the vertical, so that no tilt loop is needed.
+    Wheels that act about the vertical (`direct`) need no tilt loop.
     """
 
     jump_height: _JumpHeight = 0.0
@@ -265,7 +264,6 @@ class TurnTo(TimedTurn):
     rate: _InitialRate = (0.0, 0.0, 0.0)
     wheel_speed: Annotated[Spin, "speed of all wheels at lift-off"] = 0.0
     end: _End = End.ATTITUDE
-    direct: bool = False
 
     estimated: ClassVar[bool] = True
     heading_matters: ClassVar[bool] = True
@@ -301,10 +299,6 @@ class TurnTo(TimedTurn):
     def pushed_off(self) -> bool:
         """Whether the legs can be planned to make its jump; none is planned to end with a rate."""
         return super().pushed_off and not (any(self.rate) or self.wheel_speed)
-
-    def with_wheels(self, *, direct: bool) -> Self:
-        """The turn by wheels that act about the vertical or not."""
-        return replace(self, direct=direct)
 
     def contradictions(self) -> Iterator[str]:
         """What contradicts itself, one line each: there is a jump where there is gravity."""

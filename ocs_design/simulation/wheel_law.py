@@ -12,6 +12,7 @@ from enum import StrEnum
 import numpy as np
 
 from ocs_design.common.arrays import FloatArray, Table, stacked_columns
+from ocs_design.requirement.froude import Gains
 from ocs_design.simulation.motor_limits import MotorLimits
 from ocs_design.simulation.target import Target
 from ocs_design.sizing.trajectory.gyrostat import NO_AUTHORITY, Gyrostat
@@ -22,14 +23,6 @@ class Allocation(StrEnum):
 
     PSEUDO_INVERSE = "pseudo-inverse"
     TRANSPOSE = "transpose"
-
-
-@dataclass(frozen=True)
-class Gains:
-    """Gains of the attitude error per unit of inertia: `stiffness` [1/s^2], `damping` [1/s]."""
-
-    stiffness: float
-    damping: float
 
 
 @dataclass(frozen=True, eq=False)

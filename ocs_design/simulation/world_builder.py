@@ -20,7 +20,7 @@ from ocs_design.export.physics import (
 )
 from ocs_design.jumping.jump import IN_FLIGHT, JumpPlan
 from ocs_design.requirement.boundary import NO_PUSH, UPRIGHT, Y
-from ocs_design.requirement.froude import FroudeScale
+from ocs_design.requirement.froude import FroudeScale, Gains, wheel_gains
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.pivoted import HOLD_TIME_RATIO, Pivoted
 from ocs_design.requirement.sections import ValidationSection
@@ -33,13 +33,10 @@ from ocs_design.simulation.motor_limits import MotorLimits
 from ocs_design.simulation.reference import NO_TURN, fit_turn
 from ocs_design.simulation.scene import JUMP_STEP, Sensor, Wheels, compile_scene, robot_scene
 from ocs_design.simulation.trotting import waiting
-from ocs_design.simulation.wheel_law import Allocation, Gains, WheelLaw
+from ocs_design.simulation.wheel_law import Allocation, WheelLaw
 from ocs_design.simulation.world import Addresses, TrunkChain, World, total_mass_properties
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 from ocs_design.sizing.trajectory.motion import Trajectory
-
-PAPER_GAINS = Gains(stiffness=60.0, damping=12.0)
-"""K_p and K_d of Solo12, from which those of other robots are scaled unless specified."""
 
 
 @dataclass(frozen=True)
@@ -220,12 +217,6 @@ class WorldBuilder:
         torques = standing_torques(model, data, self._robot)
         support[drives] = torques / model.actuator_gainprm[drives, 0]
         return ctrl, support
-
-
-def wheel_gains(robot: Robot) -> Gains:
-    """The gains of Solo12 with times Froude-scaled to the robot: `K_p ~ 1/T^2`, `K_d ~ 1/T`."""
-    time = FroudeScale.of(robot).time(STANDARD_GRAVITY)
-    return Gains(PAPER_GAINS.stiffness / time**2, PAPER_GAINS.damping / time)
 
 
 def addresses(model: mujoco.MjModel, device: Device) -> Addresses:

@@ -16,11 +16,12 @@ from ocs_design.device.layout import PAIR, Criterion
 from ocs_design.device.records.selection import CoDesignRecord
 from ocs_design.parts.wheel import Flywheel
 from ocs_design.requirement.checks import contradictions
-from ocs_design.requirement.froude import standing_height
+from ocs_design.requirement.froude import standing_height, wheel_gains
 from ocs_design.requirement.resolving import Resolved
 from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.sweep import Task
 from ocs_design.requirement.vocabulary import CONTAINING, LIGHTEST, MORE_PAIRS, PYRAMID
+from ocs_design.robot.mass import MassProperties
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.surface import trunk_surface
 from ocs_design.sizing.bound.device_sizing import DeviceProblem, DeviceSizing, size_device
@@ -29,7 +30,7 @@ from ocs_design.sizing.footing.standing import standing_on
 from ocs_design.sizing.free_place import specified_place
 from ocs_design.sizing.limits import DEVICE_MASS, Progress
 from ocs_design.sizing.on_robot import OnRobot
-from ocs_design.sizing.reserve import Reserve, SampledErrors, reserve_record
+from ocs_design.sizing.reserve import NOMINAL, Reserve, SampledErrors, reserve_record
 from ocs_design.sizing.selection.problem import Candidate, SelectionProblem
 from ocs_design.sizing.selection.select import device_at, with_demands
 from ocs_design.sizing.sized import Designed, DriveChoice, sized_by_bound, sized_selection
@@ -54,7 +55,8 @@ def design_device(
     """The lightest device that meets the specification.
 
     A kick turns the robot about a centre of mass that depends on the device, so the device is sized
-    for the kicks on the robot with the previous device, then by secants. Where these do not
+    for the kicks on the robot with the previous device, then by secants. If the first one, for the
+    robot alone, is infeasible, a device for milder kicks comes before it. Where secants do not
     converge, the result is the lightest device that was sized for kicks no smaller than its own.
 
     Args:
@@ -71,22 +73,28 @@ def design_device(
     failed = FailedSearches()
     tried: list[tuple[float, float, Designed]] = []
     previous: tuple[FloatArray, FloatArray] | None = None
-    com = task.robot.com
-    for _ in range(1 + KICK_ROUNDS):
+    com, refusal = task.robot.com, None
+    while len(tried) <= KICK_ROUNDS:
         try:
             designed = _designed(task, failed, ranked=ranked, reserve=reserve, near=near)
-        except Infeasible:
+        except Infeasible as error:
+            carried = None if tried or refusal else _carrying_a_device(task, failed)
+            if carried is not None:
+                # About the centre of mass with a device on, a kick may ask for less.
+                refusal, com = error, carried.com
+                task = task.with_requirement(task.resolved.requirement.on(carried))
+                continue
             if all(excess > 0.0 for excess, _, _ in tried):
                 requirement = task.resolved.requirement
                 calmer = requirement.changed(lambda maneuver: maneuver.with_less_torque())
                 if calmer.maneuvers == requirement.maneuvers:
-                    raise
+                    raise refusal or error from None
                 # Standing up more slowly takes less torque and more momentum.
                 with suppress(Infeasible):
                     return design_device(
                         task.with_requirement(calmer), ranked=ranked, reserve=reserve
                     )
-                raise
+                raise refusal or error from None
             break
         total, requirement = designed.sized.total, task.resolved.requirement
         actual = requirement.on(total)
@@ -110,6 +118,29 @@ def design_device(
         previous = com_found, offset
         task = task.with_requirement(requirement.on(replace(total, com=com)))
     return min(tried, key=lambda attempt: attempt[:2])[2]
+
+
+_MILDER_KICK = 0.5
+"""Share of a kick with which a device is sized where none can meet the kick on the robot alone."""
+
+
+def _carrying_a_device(task: Task, failed: FailedSearches) -> MassProperties | None:
+    """The robot with a device sized for milder kicks; None: there is neither."""
+    requirement = task.resolved.requirement
+    milder = requirement.changed(
+        lambda maneuver: (
+            maneuver
+            if maneuver.on_pivot or maneuver.momentum_of_body is None
+            else maneuver.milder(_MILDER_KICK)
+        )
+    )
+    if milder.maneuvers == requirement.maneuvers:
+        return None
+    with suppress(Infeasible):
+        return _designed(
+            task.with_requirement(milder), failed, ranked=False, reserve=Reserve(NOMINAL), near=None
+        ).sized.total
+    return None
 
 
 def _designed(
@@ -218,6 +249,7 @@ def _by_selection(
         specification.reality,
         robot,
         standing_height(robot),
+        wheel_gains(robot, kp=specification.validation.kp, kd=specification.validation.kd),
         ballistic=specification.validation.ballistic is True,
     )
     requirement, in_rings = problem.requirement, None

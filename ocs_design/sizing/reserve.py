@@ -25,14 +25,21 @@ from ocs_design.device.records.selection import (
     UncertaintyCost,
 )
 from ocs_design.requirement.bound import roll_momentum_per_rate
+from ocs_design.requirement.froude import Gains
 from ocs_design.requirement.maneuver import Built, Maneuver
 from ocs_design.requirement.requirement import ManeuverReserve, Requirement
 from ocs_design.requirement.uncertainty import UncertaintySection, complete_uncertainty, parts_of
 from ocs_design.requirement.vocabulary import RELIABILITY, SAMPLES_DRAWN
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.stance import LANDING_TOLERANCE
-from ocs_design.sizing.selection.demand import roll_cancelling_momentum, wheel_task
+from ocs_design.sizing.selection.demand import (
+    HEADINGS,
+    roll_cancelling_momentum,
+    seen_at,
+    wheel_task,
+)
 from ocs_design.sizing.selection.problem import Candidate, SelectionProblem, inertia_at
+from ocs_design.sizing.settling import tilt_left_of
 
 PUSH_OFF_REMAINDER = 0.08
 """Fraction of m v d, the momentum about roll or pitch of a push-off at speed v with the centre of
@@ -263,6 +270,7 @@ class SampledErrors:
         trunk_mass: mass of the trunk alone, whose centre of mass is off [kg].
         pushes_off: whether jumps start on the ground.
         flight: flight time relative to a rigid robot's.
+        gains: of the wheel law.
     """
 
     specified: UncertaintySection
@@ -271,10 +279,17 @@ class SampledErrors:
     trunk_mass: float
     pushes_off: bool
     flight: float
+    gains: Gains
 
     @classmethod
     def of(
-        cls, specified: UncertaintySection, robot: Robot, height: float, *, ballistic: bool
+        cls,
+        specified: UncertaintySection,
+        robot: Robot,
+        height: float,
+        gains: Gains,
+        *,
+        ballistic: bool,
     ) -> "SampledErrors":
         """Errors of a robot that stands at this height [m]; `ballistic`: it never pushes off."""
         index = robot.tree.body_of_link[robot.trunk]
@@ -284,7 +299,7 @@ class SampledErrors:
         moments = np.trace(inertia) / 2.0 - np.diag(inertia)
         legs = 0 if ballistic else len(robot.legs)
         flight = FLIGHT_RATIO if legs > 3 else 1.0
-        return cls(specified, height, moments, body.mass, legs > 0, flight)
+        return cls(specified, height, moments, body.mass, legs > 0, flight, gains)
 
     def drawn(self, problem: SelectionProblem, device: Candidate) -> Mapping[str, FloatArray]:
         """Sampled values of each key, strata in random order, shape (robots, parts)."""
@@ -392,15 +407,20 @@ class _SampledManeuver:
         maneuver, requirement, device: what is flown.
         designed_axes: axes of the wheels as designed, shape (3, n).
         nominal: inertia of robot and device as designed.
-        inertia: about roll and pitch as built [kg m^2], shape (robots, 2).
-        swept, momentum: about roll and pitch, that the wheels must absorb, shape (robots, 2).
+        inertia: about roll and pitch as built [kg m^2], shape (robots, 2); about yaw too where the
+            wheels must act about it.
+        swept, momentum: about the same axes, that the wheels must absorb, at each heading that the
+            trunk passes, shape (headings, robots, 2 or 3).
+        heading_left: by which it turns from each of these until the end [rad], shape (headings,
+            robots).
         rates: of roll and pitch at lift-off [rad/s], shape (robots, 2).
         duration: in which it must be done [s], shape (robots, 1).
         share: fraction of the drives' capability that is used.
         tilt_left: fraction of what the wheels miss that remains as tilt at touchdown, see
             `TILT_LEFT`; above 1 on a pivot, where gravity makes a tilt grow.
-        axes: of the wheels as built, shape (robots, 2, n).
-        bias: error of measured roll and pitch [rad], shape (robots, 2).
+        axes: of the wheels as built, shape (robots, 2 or 3, n).
+        unsettled: roll and pitch at touchdown if the wheels give all that is commanded, by the
+            bias of the measurement and by what feedback leaves of a push [rad], shape (robots, 2).
     """
 
     maneuver: Maneuver
@@ -411,12 +431,13 @@ class _SampledManeuver:
     inertia: FloatArray
     swept: FloatArray
     momentum: FloatArray
+    heading_left: FloatArray
     rates: FloatArray
     duration: FloatArray
     share: float
     tilt_left: float
     axes: FloatArray
-    bias: FloatArray
+    unsettled: FloatArray
 
     @classmethod
     def of(
@@ -461,31 +482,59 @@ class _SampledManeuver:
             reaches_level = bool(late) and errors.flight > 1.0
             time, share = (flight_time, 1.0) if late else (time, PLANNED)
         # Each module is turned by hand on its foot; shape (robots, 2, n).
+        headed = maneuver.has_heading_demand
         built, off = device.layout.axes(at), drawn["incidence_error"][:, None]
         across = np.cross(device.layout.feet(built), built, axis=0)
-        axes = (np.cos(off) * built + np.sin(off) * across)[:, :2]
+        axes = (np.cos(off) * built + np.sin(off) * across)[:, : 3 if headed else 2]
         if problem.requirement.detection is not None:
             # Each robot in turn loses another wheel, from the start.
             failed = np.arange(len(axes)) % len(device.layout)
             axes = axes * (np.arange(len(device.layout)) != failed[:, None])[:, None]
             time -= problem.requirement.detection
             reaches_level = False
+        unsettled, push = -drawn["attitude_bias"], maneuver.push
+        swept, momentum = slew.swept, slew.momentum + diagonal * rates
+        turned = np.asarray(maneuver.turned(inertia).diagonal)
+        # I_zz = S_x + S_y.
+        vertical = device.total.inertia[2, 2] + moments[:, 0] + moments[:, 1]
+        vertical = vertical + drawn["mass_error"][:, 0] * problem.robot.inertia[2, 2]
+        if headed:
+            about_yaw = maneuver.heading(vertical)
+            swept, momentum, turned = (
+                np.column_stack([tilting, yawing])
+                for tilting, yawing in zip(
+                    (swept, momentum, turned), (*about_yaw, vertical), strict=True
+                )
+            )
+        headings = np.zeros((1, len(diagonal)))
+        if push is not None and not maneuver.on_feet:
+            if np.any(slew.yaw):
+                headings = slew.headings(vertical, HEADINGS).T
+            unsettled = unsettled + tilt_left_of(
+                push,
+                errors.gains,
+                (slew.duration - drawn["torque_delay"])[:, 0],
+                acceleration=slew.momentum / (diagonal * push.duration),
+                rate=rates,
+                yaw_rate=headings[-1] / slew.duration,
+            )
         return cls(
             maneuver=maneuver,
             requirement=problem.requirement,
             device=device,
             designed_axes=device.layout.axes(at),
             nominal=nominal,
-            inertia=np.asarray(maneuver.turned(inertia).diagonal),
+            inertia=turned,
             # A turn cancels a tilt of the opposite sense.
-            swept=slew.swept * (-1.0 if maneuver.push is None else 1.0),
-            momentum=slew.momentum + diagonal * rates,
+            swept=seen_at(headings, swept * (-1.0 if push is None else 1.0)),
+            momentum=seen_at(headings, momentum),
+            heading_left=headings[-1] - headings,
             rates=rates,
             duration=time - drawn["torque_delay"],
             share=share,
             tilt_left=TILT_LEFT if reaches_level else maneuver.growth,
             axes=axes,
-            bias=drawn["attitude_bias"],
+            unsettled=unsettled,
         )
 
     @property
@@ -507,7 +556,13 @@ class _SampledManeuver:
     @property
     def _controlled(self) -> NDArray[np.bool_]:
         """Whether the wheels control roll and pitch, shape (2,)."""
-        return np.asarray(np.abs(self.designed_axes[:2]).max(axis=1) > OUT_OF_REACH)
+        return self._reached[:2]
+
+    @property
+    def _reached(self) -> NDArray[np.bool_]:
+        """Whether they act about each axis that counts, shape (2 or 3,)."""
+        reach = np.abs(self.designed_axes[: self.axes.shape[1]]).max(axis=1)
+        return np.asarray(reach > OUT_OF_REACH)
 
     def covered_rates(self, deviations: float) -> tuple[float, float]:
         """Roll and pitch rates covered [rad/s]: this many `deviations`; 0 if out of reach."""
@@ -545,8 +600,8 @@ class _SampledManeuver:
 
         Axes that the wheels cannot control are ignored.
         """
-        controlled = self._controlled
-        return momentum_of_each(self.axes * controlled[:, None], momentum * controlled)
+        reached = self._reached
+        return momentum_of_each(self.axes * reached[:, None], momentum * reached)
 
     def sweeps(self, line: DriveLine, reliability: float) -> tuple[FloatArray, FloatArray]:
         """Sweep required of each wheel and possible [N m s^2], signed, shape (robots, n)."""
@@ -579,25 +634,31 @@ class _SampledManeuver:
         Required and possible sweeps are those of each wheel; the device achieves this factor.
         """
         # Robots last, as short last axes are slow.
-        required, possible, scale, bias, axes = (
-            np.ascontiguousarray(np.moveaxis(values, 0, -1))
+        required, possible, scale, unsettled, axes = (
+            np.ascontiguousarray(np.moveaxis(values, -2 if values.ndim == 3 else 0, -1))
             for values in (
                 *sweeps,
-                self.tilt_left * self._controlled / self.inertia,
-                self.bias,
-                self.axes,
+                self.tilt_left * self._controlled / self.inertia[:, :2],
+                self.unsettled,
+                np.moveaxis(self.axes[:, :2], 0, 1),
             )
         )
         sense, robots = np.sign(required), required.shape[-1]
+        cosine, sine = np.cos(self.heading_left), np.sin(self.heading_left)
         low, high = np.full(robots, _FACTOR_MIN), np.full(robots, _FACTOR_MAX)
         for _ in range(18):
             factor = np.sqrt(low * high)
             missing = required - possible * (factor / achieved)
             missing = np.where(missing * sense > 0.0, missing, 0.0)
-            off = scale * (axes * missing).sum(axis=1) - bias
+            roll, pitch = np.moveaxis(scale * (axes * missing[:, None]).sum(axis=2), 1, 0)
+            # As seen from the heading at the end (`seen_at`).
+            turned = np.stack([cosine * roll + sine * pitch, cosine * pitch - sine * roll])
+            off = turned.mean(axis=1) + unsettled
             level = (np.abs(off) <= LANDING_TOLERANCE).all(axis=0)
             low, high = np.where(level, low, factor), np.where(level, factor, high)
-        return high
+        # No wheel helps robots whose feedback alone settles too slowly.
+        slow = (np.abs(self.unsettled) > LANDING_TOLERANCE) & self._controlled
+        return np.where(slow.any(axis=1), _FACTOR_MIN, high)
 
     @property
     def roll_rates(self) -> FloatArray:
@@ -619,6 +680,9 @@ class _SampledManeuver:
 
     @property
     def drifts_off(self) -> NDArray[np.bool_]:
-        """Whether a robot drifts off level about an uncontrolled axis, shape (robots,)."""
-        drift = self.rates * self.duration - self.bias
-        return np.asarray(((np.abs(drift) > LANDING_TOLERANCE) & ~self._controlled).any(axis=1))
+        """Whether a robot ends off level whatever its wheels, shape (robots,).
+
+        It drifts about an axis that they do not control, or feedback settles too slowly.
+        """
+        off = np.where(self._controlled, 0.0, self.rates * self.duration) + self.unsettled
+        return np.asarray((np.abs(off) > LANDING_TOLERANCE).any(axis=1))

@@ -14,6 +14,7 @@ from ocs_design.requirement.froude import (
     SOLO12_PITCH_INERTIA,
     SOLO12_ROLL_INERTIA,
     example_maneuvers,
+    wheel_gains,
 )
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.resolving import default_specification, read_specified_robot
@@ -21,7 +22,6 @@ from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.writing import commented_toml, with_files_from
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.robot import Robot
-from ocs_design.simulation.world_builder import wheel_gains
 
 SOLO12_MASS = 2.5
 """Mass of Solo12 [kg], as in the paper."""

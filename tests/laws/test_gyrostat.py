@@ -8,12 +8,13 @@ import pytest
 from scipy.integrate import solve_ivp
 from wheels import EC45, PAPER_WHEEL, driven_device, geared, motor, paper_device
 
+from ocs_design.requirement.froude import Gains
 from ocs_design.requirement.turns import Drop
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.simulation.motor_limits import USED_SHARE, MotorLimits
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.simulate import simulate
-from ocs_design.simulation.wheel_law import Allocation, Gains, WheelLaw
+from ocs_design.simulation.wheel_law import Allocation, WheelLaw
 from ocs_design.simulation.world import World
 from ocs_design.simulation.world_builder import WorldBuilder
 

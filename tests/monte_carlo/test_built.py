@@ -11,13 +11,14 @@ from wheels import driven_device, layout_device, paper_device
 
 from ocs_design.actuation.supply import Supply
 from ocs_design.device.layout import Layout, LayoutName
+from ocs_design.requirement.froude import Gains
 from ocs_design.requirement.uncertainty import Constant, UncertaintySection
 from ocs_design.simulation.imperfections import ImperfectDrives
 from ocs_design.simulation.metrics import series_of
 from ocs_design.simulation.motor_limits import USED_SHARE, MotorLimits
 from ocs_design.simulation.scene import Wheels, compile_scene, robot_scene
 from ocs_design.simulation.simulate import simulate
-from ocs_design.simulation.wheel_law import Allocation, Gains, WheelLaw
+from ocs_design.simulation.wheel_law import Allocation, WheelLaw
 
 UP = (0.0, 0.0, 1.0)
 

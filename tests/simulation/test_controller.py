@@ -7,9 +7,10 @@ from scipy.spatial.transform import Rotation
 from wheels import motor
 
 from ocs_design.device.layout import Layout, LayoutName, module_axes
+from ocs_design.requirement.froude import Gains
 from ocs_design.simulation.motor_limits import MotorLimits
 from ocs_design.simulation.target import Target
-from ocs_design.simulation.wheel_law import Allocation, Gains, WheelLaw, tilt_error
+from ocs_design.simulation.wheel_law import Allocation, WheelLaw, tilt_error
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 
 INERTIA = np.array([[0.030, 0.001, 0.003], [0.001, 0.0535, -0.002], [0.003, -0.002, 0.068]])

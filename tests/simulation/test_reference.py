@@ -11,6 +11,7 @@ from wheels import EC45, driven_device, geared, paper_maneuvers
 from ocs_design.actuation.drive import RESERVE
 from ocs_design.common import quaternions
 from ocs_design.device.layout import module_axes
+from ocs_design.requirement.froude import Gains
 from ocs_design.requirement.turns import Drop
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.simulation.motor_limits import MotorLimits
@@ -19,7 +20,7 @@ from ocs_design.simulation.scenario import Flights, run_scenarios
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.schedule import track
 from ocs_design.simulation.simulate import simulate
-from ocs_design.simulation.wheel_law import Allocation, Gains, WheelLaw, tilt_error
+from ocs_design.simulation.wheel_law import Allocation, WheelLaw, tilt_error
 from ocs_design.simulation.world_builder import WorldBuilder
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 

@@ -12,6 +12,7 @@ from wheels import EC45_BODY, braked_inertia, driven_device, geared, paper_devic
 from ocs_design.common import quaternions
 from ocs_design.common.errors import SpecificationError
 from ocs_design.export.physics import HELD_ARMATURE, lowest_point, set_gains, set_trunk
+from ocs_design.requirement.froude import wheel_gains
 from ocs_design.requirement.turns import Drop
 from ocs_design.robot.mujoco_model import build_spec, trunk_body
 from ocs_design.robot.reader import read_robot
@@ -19,7 +20,7 @@ from ocs_design.simulation.metrics import measure
 from ocs_design.simulation.scene import Wheels, compile_scene, robot_scene
 from ocs_design.simulation.simulate import simulate
 from ocs_design.simulation.world import TrunkChain
-from ocs_design.simulation.world_builder import WorldBuilder, addresses, wheel_gains
+from ocs_design.simulation.world_builder import WorldBuilder, addresses
 
 GEARED = driven_device(drive=geared(1.5))
 

@@ -161,6 +161,29 @@ def test_kicks_act_about_the_centre_of_mass_of_robot_and_device():
 
 
 @pytest.mark.slow
+def test_a_kick_too_large_for_the_robot_alone_is_sized_about_its_centre_of_mass_with_a_device():
+    """Parts and incidence that the lightest device has were refused."""
+
+    def task(kick):
+        return solo12_task(
+            motor__name="Antigravity MN5006 KV450",
+            ocs__alpha="30deg",
+            requirement__jump_height="0.3m",
+            requirement__kick=f"{kick} N s at 0,0,0.05",
+        )
+
+    design = design_device(task(1.0), ranked=False)
+    assert design.choice.problem.requirement.kicks == pytest.approx(
+        design.requirement.kicks, rel=0.011, abs=1e-9
+    )
+    # The kick on the robot alone is one too large, and of the next one the message says so.
+    alone = np.abs(task(1.0).resolved.requirement.kicks).max()
+    assert np.abs(design.requirement.kicks).max() < 0.87 * alone
+    with pytest.raises(Infeasible, match=r"kick takes 0\.456 s at best, 0\.343 s given"):
+        design_device(task(1.15), ranked=False)
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize(("change", "accepted"), [(0.05, False), (0.01, True)])
 def test_a_mount_that_alternates_between_iterations_is_refused(monkeypatch, change, accepted):
     """Unless its mass changes by at most 5 % of the device's, which is 0.49 kg here.

@@ -13,7 +13,7 @@ from ocs_design.actuation.wheel_load import WheelTask, gauge, spin_demand, witho
 from ocs_design.common.arrays import FloatArray
 from ocs_design.device.records.selection import TaskDemand
 from ocs_design.requirement.bound import AXES, rate_momenta, roll_momentum_per_rate
-from ocs_design.requirement.maneuver import Maneuver
+from ocs_design.requirement.maneuver import Maneuver, Slew
 from ocs_design.requirement.requirement import Requirement
 from ocs_design.sizing.selection.composite_inertia import CompositeInertia
 from ocs_design.sizing.selection.drives import Drives
@@ -24,6 +24,11 @@ ROLL_CANCELLED = 0.35
 turn a flip. In simulation (docs/theory.md, A roll at lift-off): robots fail above 0.36 with
 Solo12's lightest device, 0.40 and 0.45 with Romeo's of two and four wheels, 0.47 with TALOS's of
 four."""
+
+
+HEADINGS = 5
+"""Number of headings at which the momentum of a trunk that yaws is evaluated: between two that are
+0.35 rad apart it is at most 1.5 % larger."""
 
 
 class Margins(NamedTuple):
@@ -162,8 +167,11 @@ def wheel_task(
         requirement.slew(maneuver, turned_inertia, with_rate=has_rate)
         for maneuver, turned_inertia, has_rate in zip(maneuvers, inertias, have_rate, strict=True)
     ]
-    swept = np.stack([slew.swept for slew in slews])
-    momentum = np.stack([slew.momentum for slew in slews])
+    one_stops = requirement.detection is not None
+    at_headings = [
+        _at_worst_heading(slew, yaw_inertia, axes, one_stops=one_stops) for slew in slews
+    ]
+    swept, momentum = (np.stack(each) for each in zip(*at_headings, strict=True))
     if headed:
         headings, whole = [], np.broadcast_to(yaw_inertia, axes.shape[:-2])
         for maneuver, has_rate in zip(maneuvers, have_rate, strict=True):
@@ -183,11 +191,49 @@ def wheel_task(
         duration=np.array([slew.duration for slew in slews])[:, None, None],
         inertia=TiltInertia(*(np.stack(parts) for parts in zip(*inertias, strict=True))),
         axes=axes,
-        one_stops=requirement.detection is not None,
+        one_stops=one_stops,
         yaw_inertia=np.asarray(yaw_inertia) if headed else None,
         initial_speed=np.array([slew.initial_speed for slew in slews])[:, None, None],
         one_way=np.array([slew.one_way for slew in slews])[:, None, None],
     )
+
+
+def _at_worst_heading(
+    slew: Slew, yaw_inertia: ArrayLike, axes: FloatArray, *, one_stops: bool
+) -> tuple[FloatArray, FloatArray]:
+    """Swept and momentum of a slew, in B at that heading where they ask most of the wheels.
+
+    The trunk yaws, and they stand still in space (docs/theory.md, Disturbances).
+    """
+    if not np.any(slew.yaw):
+        return slew.swept, slew.momentum
+    headings = slew.headings(np.broadcast_to(yaw_inertia, axes.shape[:-2]), HEADINGS)
+    swept, momentum = (
+        seen_at(headings, each[..., None, :]) for each in (slew.swept, slew.momentum)
+    )
+    remaining = [
+        wheels[..., None, :, :] for wheels in (without_each(axes) if one_stops else (axes,))
+    ]
+    busiest = np.max([gauge(wheels, momentum).busiest for wheels in remaining], axis=0)
+    worst = np.argmax(busiest, axis=-1)[..., None, None]
+
+    def at_worst(seen: FloatArray) -> FloatArray:
+        return np.take_along_axis(seen, worst, axis=-2)[..., 0, :]
+
+    return at_worst(swept), at_worst(momentum)
+
+
+def seen_at(heading: FloatArray, fixed: FloatArray) -> FloatArray:
+    """A vector that is fixed in space, in B after a change of heading.
+
+    Args:
+        heading: angle by which the trunk has yawed [rad], shape (...).
+        fixed: about roll and pitch, and yaw if need be, in B before that, shape (..., 2 or 3).
+    """
+    cosine, sine = np.cos(heading), np.sin(heading)
+    x, y, *about_yaw = np.moveaxis(fixed, -1, 0)
+    seen = np.broadcast_arrays(cosine * x + sine * y, cosine * y - sine * x, *about_yaw)
+    return np.stack(seen, axis=-1)
 
 
 def rate_change_spin_inertia(
