@@ -61,6 +61,7 @@ def test_a_ring_fits_around_the_bell_and_its_joints_hold():
         "largest stress of the wheel",
         "rim joint, pull on the bond",
         "shaft joint",
+        "motor mount",
         "landing shock, foot",
     ]
     assert all(joint.margin >= 1.0 for joint in joints_of(device))

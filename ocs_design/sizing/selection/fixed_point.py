@@ -244,6 +244,9 @@ def _step(candidates: Candidates, spin: FloatArray, shapes: ModuleShape, design:
     # incidences are equal, and the middle one is kept.
     penalty = _HUGE / np.maximum(varied.margin, _TINY)
     score = np.where(np.isfinite(varied.improved), varied.improved, penalty)
+    # A wheel that cannot be made says nothing about the incidence.
+    made = shapes.mass > 0.0
+    score = np.where(made[:, None], score, _HUGE)
     score[:, score.shape[1] // 2] *= 1.0 - 1e-15
     best, row = np.argmin(score, axis=1), np.arange(spin.size)
     chosen, last = angles[row, best], offsets.shape[1] - 1
@@ -251,7 +254,7 @@ def _step(candidates: Candidates, spin: FloatArray, shapes: ModuleShape, design:
     demand = np.maximum(varied.improved[row, best], fixed.improved[:, 0])
     return _Step(
         angle=chosen,
-        width=np.where(inside | ~np.isfinite(demand), _NARROWING, 1.0) * design.width,
+        width=np.where(made & (inside | ~np.isfinite(demand)), _NARROWING, 1.0) * design.width,
         demand=np.maximum(demand, candidates.least_spin_inertia),
         margin=np.minimum(varied.margin[row, best], fixed.margin[:, 0]),
     )

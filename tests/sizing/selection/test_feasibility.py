@@ -14,6 +14,8 @@ from ocs_design.sizing.advice import (
     single_changes,
 )
 from ocs_design.sizing.limits import SUPPLY_POWER
+from ocs_design.sizing.selection.candidates import Candidates, Guess, drives_of
+from ocs_design.sizing.selection.fixed_point import solve_stepwise
 from ocs_design.sizing.selection.problem import with_limit
 from ocs_design.sizing.selection.refinement import refine
 from ocs_design.sizing.selection.search import search
@@ -107,3 +109,25 @@ def test_an_unranked_search_finds_the_first_of_the_ranking(seed):
     assert not search(problem, 0.5 * unranked.lightest, ranked=False).ranking
     limited = search(problem, 1.01 * unranked.lightest, ranked=False)
     assert limited.lightest == pytest.approx(unranked.lightest, rel=1e-9)
+
+
+@pytest.mark.parametrize("seed", [0, 1, 4, 5])
+def test_devices_are_found_from_a_poor_incidence(seed):
+    """From near 0 deg, where the wheels for most of these robots would be too large to be made."""
+    problem = replace(random_problem(seed), incidence=None)
+    pairs = np.array([(motor, gear) for motor in range(3) for gear in range(3)])
+    drives = drives_of(problem, np.repeat(pairs, 2, axis=0))
+    candidates = Candidates(problem, drives, np.tile([0, 1], len(pairs)))
+    none = np.zeros(len(drives))
+
+    def masses(incidence, width):
+        guess = Guess(none + 1e-9, none, none + incidence, none + width)
+        *_, solved = solve_stepwise(candidates, guess)
+        return solved.mass
+
+    at_each = [masses(np.radians(angle), 0.0) for angle in np.arange(2.5, 90.0, 5.0)]
+    lightest = np.min(at_each, axis=0)
+    exists = np.isfinite(lightest)
+    assert exists.sum() > 3
+    found = masses(np.radians(2.5), np.radians(5.0))
+    assert (found[exists] < 1.03 * lightest[exists]).all()
