@@ -231,7 +231,7 @@ def _kicked(kick: Kick, jump: Disturbance, robot: Robot) -> tuple[Disturbance, s
     roll, pitch, yaw = (f"{component:.3g}" for component in angular_impulse)
     spin = abs(np.linalg.solve(robot.inertia, angular_impulse)[2])
     rate = format_quantity(spin, "deg/s", 2)
-    heading = f" (the wheels cannot cancel the yaw part, which turns it at {rate})"
+    heading = f" (the yaw part turns it at {rate}, unless wheels act about the vertical)"
     return kicked, (
         f"{kick.impulse:.3g} N s at {link}({where}) mm along ({direction}){default}: "
         f"angular impulse ({roll}, {pitch}, {yaw}) N m s {_WITHOUT_DEVICE}"
