@@ -4,7 +4,6 @@ from dataclasses import dataclass
 from math import pi
 
 import numpy as np
-from scipy.linalg import solveh_banded
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.parts.rim import HoleRing
@@ -58,8 +57,7 @@ def bent_web(
     load = np.full(nodes.size, force / (2.0 * pi) * step)
     load[[0, -1]] /= 2.0
     turned = np.zeros(nodes.size)
-    bands = np.stack([np.append(0.0, across[1:-1]), diagonal[1:-1]])
-    turned[1:-1] = solveh_banded(bands, load[1:-1])
+    turned[1:-1] = _tridiagonal_solution(diagonal[1:-1], across[1:-1], load[1:-1])
     # Moments at the edges balance what is left of the equations there.
     first = across[0] * turned[1] - load[0]
     last = across[-1] * turned[-2] - load[-1]
@@ -68,6 +66,25 @@ def bent_web(
     radial = plate * (np.diff(turned) / step + poisson_ratio * between / (2.0 * middle))
     moment = max(float(edges.max()), float((np.abs(radial) / left).max()))
     return BentWeb(6.0 * moment / thickness**2, float(between.sum() * step / 2.0))
+
+
+def _tridiagonal_solution(
+    diagonal: FloatArray, beside: FloatArray, right: FloatArray
+) -> list[float]:
+    """Solution of a symmetric tridiagonal system, by Thomas's algorithm.
+
+    SciPy has it too, but importing that takes most of the time in which parts are exported.
+    """
+    pivots, left = diagonal.tolist(), beside.tolist()
+    solution: list[float] = right.tolist()
+    for row in range(1, len(pivots)):
+        factor = left[row - 1] / pivots[row - 1]
+        pivots[row] -= factor * left[row - 1]
+        solution[row] -= factor * solution[row - 1]
+    solution[-1] /= pivots[-1]
+    for row in range(len(pivots) - 2, -1, -1):
+        solution[row] = (solution[row] - left[row] * solution[row + 1]) / pivots[row]
+    return solution
 
 
 def _share_left(holes: HoleRing, radius: FloatArray) -> FloatArray:
