@@ -323,7 +323,7 @@ def _judge_mirror_images(tree: Tree, trunk: str, legs: Sequence[Leg], warnings: 
 
 
 def _distance_aside(legs: Sequence[Leg], hips: Sequence[FloatArray]) -> float:
-    """Where the plane between left and right meets B's y axis [m]; zero if B's origin is on it.
+    """Position along B's y of the plane between left and right [m]; zero if B's origin is on it.
 
     A single pair of legs does not tell a frame aside from a hip that is misplaced, so that two
     pairs or more must agree.
