@@ -25,9 +25,6 @@ ALUMINIUM_SHEAR = 207e6
 THREAD_SHARE = 0.5
 """Preload of a screw in aluminium relative to the load that strips its thread."""
 
-THREAD_SHARE = 0.5
-"""Preload of a screw in aluminium relative to the load that strips its thread."""
-
 
 @dataclass(frozen=True)
 class Tightened:

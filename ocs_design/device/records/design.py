@@ -55,7 +55,7 @@ class Tool:
     """Program that wrote the file.
 
     Attributes:
-        name: `ocs-design`. version: of it.
+        name: `ocs-design`. version: of the program.
     """
 
     name: str
